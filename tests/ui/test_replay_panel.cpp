@@ -11,6 +11,7 @@
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
 #include "tests/ui/small_robot.h"
+#include "ui/common/look/cut_label.h"
 #include "ui/common/numbers/format.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
@@ -422,12 +423,20 @@ void TestReplayPanel::panelShowsFitnessSimulatorAndStandIn() {
   data.fitness = 1.375;
   data.simulator = "simulator 3";
   panel.setReplay(data);
-  QStringList texts;
-  for (auto* label : panel.findChildren<QLabel*>()) texts << label->text();
-  const QString all = texts.join("|");
+  panel.show();
+  QCoreApplication::processEvents();
+  const auto* result = dynamic_cast<const CutLabel*>(panel.findChild<QLabel*>("result"));
+  QVERIFY(result);
+  const QString all = result->whole();
   QVERIFY2(all.contains("fitness " + withUnit(1.375, "m")) && all.contains("simulator 3") &&
                all.contains("kick, individual 7"),
            qPrintable(all));
+  // Where it has no room its end is left out, and that is seen.
+  panel.resize(panel.width() - result->width() + result->fontMetrics().horizontalAdvance(all) / 2, 400);
+  QCoreApplication::processEvents();
+  QVERIFY2(result->text().endsWith(QChar(0x2026)), qPrintable(result->text()));
+  QVERIFY(result->fontMetrics().horizontalAdvance(result->text()) <= result->width());
+  QCOMPARE(result->toolTip(), all);
   // The stand-in's label is part of the picture, also of a saved one.
   const QImage real = panel.view().picture({600, 300});
   data.standIn = true;

@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include "core/spec/error.h"
+#include "ui/common/look/cut_label.h"
 #include "ui/common/numbers/format.h"
 #include "ui/scene3d/replay_job.h"
 
@@ -69,11 +70,10 @@ const std::vector<double>& ReplayPanel::speeds() {
 
 ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
     : QWidget(parent), factory_(std::move(factory)), view_(new SceneView(this, factory_)) {
-  result_ = new QLabel(this);
+  result_ = new CutLabel(this);
+  result_->setObjectName("result");
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->setFocusPolicy(Qt::NoFocus);
-  // A long line is cut, with the whole in the tooltip: it must not widen the window.
-  result_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
 
   auto* head = new QHBoxLayout;
   head->addWidget(result_, 1);
@@ -177,8 +177,7 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
     result << tr("fitness %1").arg(withUnit(replay.fitness, replay.fitnessUnit));
   if (!replay.simulator.isEmpty()) result << replay.simulator;
   if (!replay.note.isEmpty()) result << replay.note;
-  result_->setText(result.join("  ·  "));
-  result_->setToolTip(result_->text());
+  result_->setWhole(result.join("  ·  "));
   view_->setBadges(badgesOf(replay));
   slider_->setRange(0, std::max(0, int(playback_.frames()) - 1));
   setPlaying(false);
@@ -234,7 +233,7 @@ void ReplayPanel::showMessage(const QString& text, Badge::Tone tone) {
   showBeside(nullptr);
   view_->setCaption({});
   view_->setBadges({Badge{text, tone}});
-  result_->clear();
+  result_->setWhole({});
   slider_->setRange(0, 0);
   setPlaying(false);
   refresh();

@@ -16,6 +16,7 @@ class QToolButton;
 
 namespace btr::ui {
 
+class CutLabel;
 class ReplayJob;
 
 /// What the badge says of a replay: green identical, red with both fitnesses, grey not checked.
@@ -79,7 +80,8 @@ class ReplayPanel : public QWidget {
   QToolButton *first_, *back_, *play_, *forward_, *loop_;
   QSlider* slider_;
   QComboBox* speed_;
-  QLabel *time_, *result_;
+  QLabel* time_;
+  CutLabel* result_;  ///< what is played, and its fitness
   Playback playback_;
   ReplayData data_;
   ReplayFrames frames_, besideFrames_;

@@ -51,6 +51,21 @@ TEST(RealRobots, AnImpossibleValueIsRefusedAndTheOthersStay) {
   const std::string said = refusal([&] { run.goOn(); });
   EXPECT_THAT(said, testing::HasSubstr("measured by program: -1 m is not possible"));
   EXPECT_EQ(1u, run.database_.measurements(run.run_).size());
+  // Who looks at the run later reads why it waits.
+  EXPECT_EQ(RunState::waiting, run.database_.run(run.run_).state);
+  EXPECT_EQ(said, run.database_.run(run.run_).message);
+}
+
+TEST(RealRobots, WhatARobotThatFailedSaidIsKeptWithTheRunUntilItGoesOn) {
+  Rig rig;
+  rig.answers({"\"far\""});
+  SmallKickRun run = measuredBy(rig.asReality());
+  const std::string said = refusal([&] { run.goOn(); });
+  EXPECT_THAT(said, testing::HasSubstr("/fitness: \"far\" is not allowed"));
+  EXPECT_EQ(said, run.database_.run(run.run_).message);
+  rig.answers({"0.4"});
+  EXPECT_EQ(RunEnd::finished, run.goOn());
+  EXPECT_EQ("", run.database_.run(run.run_).message);
 }
 
 TEST(RealRobots, ADoubtfulValueWaitsForAPersonWhoConfirmsIt) {

@@ -272,6 +272,19 @@ class TestWindowEntry : public QObject {
     QVERIFY(DockLayout::isInFront(window->findChild<QDockWidget*>("dock.sheet")));
   }
 
+  void whatARobotThatFailedSaidIsShown() {
+    StoredRun stored;
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    const char* said = "individual 2, measured by program: -1 m is not possible: this fitness is never negative";
+    stored.database.setRunState(run, RunState::waiting, said);
+    Desk desk;
+    desk.options.program = desk.file("btr", QByteArray("#!/bin/sh\necho 'btr: ") + said + "' >&2\nexit 1\n");
+    QVERIFY(QFile::setPermissions(desk.options.program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+    const auto window = desk.open(stored.qpath());
+    window->runs().resume(run);
+    QTRY_VERIFY2(window->banner().text().endsWith(said), qPrintable(window->banner().text()));
+  }
+
   void theStartPageOpensWhenNothingWaits() {
     StoredRun stored;
     const Id run = stored.addRun(stored.addExperiment());

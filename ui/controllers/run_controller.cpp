@@ -119,8 +119,8 @@ void RunController::checkMeasured() {
   }
 }
 
-// A process that ends without leaving its run waiting, stopped or finished has something to say. One may end before it
-// has locked anything.
+// A process that ends without leaving its run waiting, stopped or finished has something to say; so has one whose robot
+// failed: its run waits, and keeps the same words. One may end before it has locked anything.
 void RunController::checkLaunched() {
   checkMeasured();
   const RunLauncher& launcher = bench_.launcher();
@@ -131,8 +131,9 @@ void RunController::checkLaunched() {
     }
     readStanding(*run, "ended", [this](const Standing& end) {
       const RunState state = end.run.state;
-      if (state == RunState::waiting || state == RunState::stopped || state == RunState::finished) return;
-      const QString words = bench_.launcher().lastWords(end.run.id);
+      if (state == RunState::stopped || state == RunState::finished) return;
+      const QString words = bench_.launcher().lastWords(end.run.id), kept = QString::fromStdString(end.run.message);
+      if (state == RunState::waiting && (kept.isEmpty() || !words.endsWith(kept))) return;
       bench_.report(tr("%1 ended: %2")
                         .arg(runName(end.run), words.isEmpty()
                                                    ? tr("its process was ended, or crashed, and said nothing. What is "

@@ -18,8 +18,7 @@ QString generations(int count) {
 QString whoMeasures(const RunRecord& run) {
   if (isMeasuredByPerson(run))
     return RunTexts::tr("Measure on the real robot and enter the values in the measurement sheet");
-  return RunTexts::tr("“%1” measures: press Continue once its values are there, or enter them in the measurement sheet")
-      .arg(QString::fromStdString(run.reality));
+  return RunTexts::tr("“%1” measures; press Continue to ask it again").arg(QString::fromStdString(run.reality));
 }
 
 }  // namespace

@@ -159,6 +159,17 @@ bool askRobot(RunContext& context, RealRobot& robot, const std::vector<Measureme
   return true;
 }
 
+/// Opens the robot and asks it. The run waits whatever goes wrong there, and keeps what: nobody may have watched.
+bool openAndAsk(RunContext& context, const std::vector<MeasurementTask>& tasks, std::vector<MeasurementRecord>& done) {
+  try {
+    const auto robot = openRobot(context);
+    return !robot || askRobot(context, *robot, tasks, done);
+  } catch (const InputError& error) {
+    context.database.setRunState(context.record.id, RunState::waiting, error.what());
+    throw;
+  }
+}
+
 }  // namespace
 
 bool beginMeasuring(RunContext& context, int stage) {
@@ -213,7 +224,7 @@ bool completeMeasuring(RunContext& context, int stage, int iteration) {
   context.progress.stageDone = static_cast<int>(settled());
 
   if (context.progress.stageDone < context.progress.stageTotal) {
-    if (const auto robot = openRobot(context); robot && !askRobot(context, *robot, tasks, done)) return false;
+    if (!openAndAsk(context, tasks, done)) return false;
     context.progress.stageDone = static_cast<int>(settled());
   }
   const int missing = context.progress.stageTotal - static_cast<int>(settled());

@@ -1,6 +1,7 @@
 #include "core/gap/fit/joint_pace.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -18,6 +19,19 @@ double largestTorque(const Drive& drive) {
   if (drive.kind == Drive::Kind::dcMotor && drive.supply_v > 0)
     return drive.torqueConstant_nm_a * drive.supply_v * drive.maxDuty / drive.resistance_ohm;
   return std::numeric_limits<double>::infinity();
+}
+
+/// Whether one of the drive's numbers that a fit may change makes its largest torque another one.
+bool isTorqueFitted(const FitProblem& problem, const std::string& at, const Binding::Measured& joint, double asGiven) {
+  const std::string robot = at.substr(0, at.find('.')), name = at.substr(robot.size() + 1);
+  return std::ranges::any_of(problem.scene.calibrate, [&](const CalibratePath& path) {
+    return path.path.starts_with("robots." + robot + ".servos." + name + ".") &&
+           std::ranges::any_of(std::array{path.minimum, path.maximum}, [&](double value) {
+             SimulatorSpec moved = problem.given;
+             moved.values[path.path] = value;
+             return largestTorque(problem.sceneOf(moved, 0).robots[joint.object].drives[joint.part]) != asGiven;
+           });
+  });
 }
 
 /// The power of the rate by which a torque per rate is multiplied; nothing for what is no torque.
@@ -41,7 +55,10 @@ std::map<std::string, JointPace> pacesOf(const FitProblem& problem) {
       const SceneRobot& robot = scene.robots[measured.object];
       const std::string at = robot.name + "." + robot.model.joints[measured.part].name;
       JointPace& pace = paces[at];
-      pace.torque = largestTorque(robot.drives[measured.part]);
+      if (counts.find(at) == counts.end()) {
+        pace.torque = largestTorque(robot.drives[measured.part]);
+        pace.torqueIsFitted = isTorqueFitted(problem, at, measured, pace.torque);
+      }
       const std::vector<double> speeds = measured.what == Measured::What::rate
                                              ? trial.recording.columns[measured.column]
                                              : sampleSpeeds(trial.recording, measured.column, trial.noiseFloor[c]);
@@ -62,8 +79,10 @@ Parameter inProportion(const FitProblem& problem, const std::string& at, Paramet
   const double torque = pace->second.torque;
   if (!(torque > 0)) return parameter;
   if (parameter.unit == "1/(N·m)" && weaker * torque * parameter.maximum > 1) {
-    parameter.minimum = std::max(parameter.minimum, 1 / torque);
-    parameter.neutral = parameter.minimum;
+    if (!pace->second.torqueIsFitted) {
+      parameter.minimum = std::max(parameter.minimum, 1 / torque);
+      parameter.neutral = parameter.minimum;
+    }
     if (std::isfinite(torque)) parameter.byDefault = 1 / (weaker * torque);
   } else if (const auto power = powerOfRate(parameter.unit)) {
     const double size = parameter.byDefault - *parameter.neutral;

@@ -14,6 +14,7 @@ struct FitProblem;
 /// fast.
 struct JointPace {
   double torque = std::numeric_limits<double>::infinity();  ///< largest of its drive [N·m or N]; infinite: not known
+  bool torqueIsFitted = false;                              ///< calibrated numbers make it another one than as given
   double rate = 0;                                          ///< r.m.s. [rad/s or m/s]; 0: not known
 };
 
@@ -22,7 +23,7 @@ std::map<std::string, JointPace> pacesOf(const FitProblem& problem);
 
 /// An effect's parameter as it is tried at a place: in its usual size, but where that size alone would be ten times
 /// what the drive gives at that pace, in one that comes to a tenth of it. One over a torque is a limit: it begins where
-/// it changes nothing, at the drive's own, and is tried a fifth below that.
+/// it changes nothing, at the drive's own unless a fit may move that, and is tried a fifth below that.
 Parameter inProportion(const FitProblem& problem, const std::string& at, Parameter parameter);
 
 }  // namespace btr

@@ -74,6 +74,14 @@ TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
   EXPECT_DOUBLE_EQ(*stall.neutral, 1 / 0.3) << "a higher stall torque is cut off by the drive's own limit";
   EXPECT_DOUBLE_EQ(stall.minimum, 1 / 0.3);
   EXPECT_DOUBLE_EQ(stall.byDefault, 1 / 0.24);
+
+  // A fit of the drive's limit would leave this one behind, where it limits and yet passes for nothing.
+  problem.scene.calibrate.push_back({"robots.rig.servos.hinge.max_torque_nm", 0.2, 0.9});
+  const FitProblem fitted = makeFitProblem(problem, {turning}, library());
+  const Parameter open = inProportion(fitted, "rig.hinge", parameter("torque_speed_limit"));
+  EXPECT_EQ(*open.neutral, 0);
+  EXPECT_EQ(open.minimum, 0);
+  EXPECT_DOUBLE_EQ(open.byDefault, 1 / 0.24);
 }
 
 // A first look at many candidates tried a wave in one number, and all looks tried it in one sign.

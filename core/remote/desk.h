@@ -33,6 +33,7 @@ enum class Method : char {
   start = 'S',
   run = 'O',
   stop = 'X',
+  forgetStop = 'F',
   wanted = 'W',
   measured = 'M',
   work = 'w',

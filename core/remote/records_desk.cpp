@@ -199,8 +199,13 @@ std::string RecordsDesk::answer(Method method, std::string_view message) {
       return run(messageOf<v1::StopRequest>(message).run());
     case Method::stop: {
       const Id id = messageOf<v1::StopRequest>(message).run();
-      reading().run(id);
-      if (isRunActive(path_, id)) writing().requestStop(id, true);
+      // Also for a run whose process is about to begin: forgetStop came before it.
+      if (reading().run(id).state != RunState::finished) writing().requestStop(id, true);
+      return run(id);
+    }
+    case Method::forgetStop: {
+      const Id id = messageOf<v1::StopRequest>(message).run();
+      forgetStop(writing(), id);
       return run(id);
     }
     case Method::wanted:

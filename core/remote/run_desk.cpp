@@ -18,6 +18,7 @@ std::string RunDesk::answer(Method method, std::string_view message) {
   const StopFlag never{false};
   RunOptions options;
   options.jobs = jobs_;
+  options.earlierStopCounts = true;  // older ones were forgotten before this process was started
   try {
     const RunEnd end = continueRun(db, host_, run, never, options);
     return end == RunEnd::finished ? "finished" : end == RunEnd::waiting ? "waiting" : "stopped";

@@ -18,6 +18,11 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
+double allowedPatience(double wanted_s) {
+  constexpr double most_s = 86400;
+  return std::min(wanted_s, most_s);
+}
+
 }  // namespace
 
 struct RunKeeper::Work {
@@ -65,6 +70,11 @@ struct RunKeeper::Work {
       refused = object.at("refused").get<std::string>();
     }
     changed.notify_all();
+  }
+
+  void stop(const std::string& why) {
+    stopping = why;
+    if (!question.empty()) tellEnd(why);
   }
 
   void tellEnd(const std::string& why) {
@@ -131,21 +141,17 @@ void RunKeeper::stopAll(const std::function<void(Id)>& request, double patience_
   }
   const auto until =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
-  constexpr auto again = std::chrono::milliseconds(300);
-  // A run that has just begun may not heed what came before it: it is asked again.
-  for (const auto& each : works) {
-    const std::shared_ptr<Work>& work = each.second;
-    std::unique_lock lock(work->mutex);
-    while (!work->over && Clock::now() < until) {
-      if (!work->question.empty()) {
-        work->tellEnd("the server ends; continue the run at any time");
-      } else {
-        lock.unlock();
-        request(each.first);
-        lock.lock();
-      }
-      work->changed.wait_for(lock, again, [&] { return work->over; });
+  for (const auto& [run, work] : works) {
+    {
+      const std::lock_guard lock(work->mutex);
+      if (work->over) continue;
+      work->stop("the server ends; continue the run at any time");
     }
+    request(run);
+  }
+  for (const auto& [run, work] : works) {
+    std::unique_lock lock(work->mutex);
+    work->changed.wait_until(lock, until, [&work = *work] { return work.over; });
   }
 }
 
@@ -164,7 +170,10 @@ void RunKeeper::begin(Id run, double patience_s) {
     if (work->over) continue;
     if (id == run && !work->stopping.empty())
       throw Refusal(Code::notNow, "run " + std::to_string(run) + " is still about to stop; continue it when it has");
-    if (id == run) return;
+    if (id == run) {
+      if (patience_s > 0) work->patience_s = allowedPatience(patience_s);
+      return;
+    }
     ++active;
   }
   if (active >= most)
@@ -172,8 +181,8 @@ void RunKeeper::begin(Id run, double patience_s) {
   auto work = std::make_shared<Work>();
   work->run = run;
   work->order = ++begun_;
-  constexpr double usual_s = 600, most_s = 86400;
-  work->patience_s = patience_s > 0 ? std::min(patience_s, most_s) : usual_s;
+  constexpr double usual_s = 600;
+  work->patience_s = patience_s > 0 ? allowedPatience(patience_s) : usual_s;
   work->child = nursery_.start('r');
   work->follower = std::thread([&w = *work] {
     try {
@@ -270,8 +279,7 @@ void RunKeeper::end(Id run, const std::string& why) {
   const auto work = find(run);
   if (!work) return;
   const std::lock_guard lock(work->mutex);
-  work->stopping = why;
-  if (!work->question.empty()) work->tellEnd(why);
+  work->stop(why);
 }
 
 }  // namespace btr::remote

@@ -34,7 +34,8 @@ class RunKeeper {
   RunKeeper(const RunKeeper&) = delete;
   RunKeeper& operator=(const RunKeeper&) = delete;
 
-  /// Nothing happens if it is worked on already. Throws Refusal, also for one that is still about to stop.
+  /// One that is worked on already gets the patience, or keeps its own with 0. Throws Refusal, also for one that is
+  /// still about to stop.
   void begin(Id run, double patience_s);
   bool isHere(Id run) const;
   /// end() was called, and its process is still there.

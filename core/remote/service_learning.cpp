@@ -85,11 +85,22 @@ grpc::Status LearningService::pass(grpc::ServerContext* context, Role needed, Me
   });
 }
 
-v1::Run LearningService::runOf(std::int64_t run) {
+v1::Run LearningService::ofRecords(Method method, std::int64_t run) {
   v1::StopRequest request;
   request.set_run(run);
   v1::Run out;
-  take(desks_.switchboard.records(callOf(Method::run, request.SerializeAsString())), out);
+  take(desks_.switchboard.records(callOf(method, request.SerializeAsString())), out);
+  return out;
+}
+
+void LearningService::begin(std::int64_t run, double patience_s) {
+  const std::lock_guard lock(beginning_);
+  if (!desks_.switchboard.runs().isHere(run)) ofRecords(Method::forgetStop, run);
+  desks_.switchboard.runs().begin(run, patience_s);
+}
+
+v1::Run LearningService::runOf(std::int64_t run) {
+  v1::Run out = ofRecords(Method::run, run);
   out.set_here(desks_.switchboard.runs().isHere(run));
   return out;
 }
@@ -138,7 +149,7 @@ grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::Star
   return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     checkPatience(request->patience_s());
     take(desks_.switchboard.records(callOf(Method::start, request->SerializeAsString())), *reply);
-    desks_.switchboard.runs().begin(reply->run(), request->patience_s());
+    begin(reply->run(), request->patience_s());
     *reply = runOf(reply->run());
   });
 }
@@ -153,7 +164,7 @@ grpc::Status LearningService::Continue(grpc::ServerContext* context, const v1::C
     if (state == "waiting" || state == "stopped" || state == "failed" ||
         desks_.switchboard.runs().isToStop(request->run()))
       desks_.switchboard.runs().awaitEnd(request->run(), leaving_s);
-    desks_.switchboard.runs().begin(request->run(), request->patience_s());
+    begin(request->run(), request->patience_s());
     *reply = runOf(request->run());
   });
 }

@@ -177,10 +177,15 @@ class LearningService final : public v1::Learning::Service {
 
  private:
   v1::Run runOf(std::int64_t run);
+  /// What records answer to a method whose message is the number of a run.
+  v1::Run ofRecords(Method method, std::int64_t run);
+  /// A process begins to work on the run, unless one does.
+  void begin(std::int64_t run, double patience_s);
   template <class Request, class Reply>
   grpc::Status pass(grpc::ServerContext* context, Role needed, Method method, const Request& request, Reply& reply);
 
   Desks& desks_;
+  std::mutex beginning_;  ///< nobody forgets a stop of a run that another call begins
 };
 
 }  // namespace btr::remote

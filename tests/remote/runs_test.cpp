@@ -46,9 +46,10 @@ class RemoteRun : public ServerTest {
     EXPECT_TRUE(status.ok()) << status.error_message();
     return run.run();
   }
-  void goOn(const Caller& caller, std::int64_t number) {
+  void goOn(const Caller& caller, std::int64_t number, double patience_s = 0) {
     v1::ContinueRequest request;
     request.set_run(number);
+    request.set_patience_s(patience_s);
     v1::Run run;
     const auto context = caller.context();
     const grpc::Status status = caller.learning->Continue(context.get(), request, &run);
@@ -284,6 +285,39 @@ TEST_F(RemoteRun, ARunThatIsContinuedAtOnceAfterItWasStoppedGoesOn) {
   EXPECT_TRUE(caller.learning->Stop(caller.context().get(), request, &reply).ok());
   goOn(caller, run);
   EXPECT_EQ(v1::Question::VECTORS, ask(caller, run).what());
+}
+
+TEST_F(RemoteRun, AStopThatComesBeforeTheRunsProcessHasBegunCounts) {
+  begin();
+  const Caller caller(address);
+  const std::int64_t run = start(caller, experiment([](nlohmann::json& text) {
+                                   text["learner"] = {{"name", "ga"}, {"settings", {{"population", 4}}}};
+                                   text["stages"]["first_generations"] = text["stages"]["total_generations"] = 1000;
+                                 }));
+  v1::StopRequest request;
+  request.set_run(run);
+  for (int time = 0; time < 3; ++time) {
+    v1::Run reply;
+    EXPECT_TRUE(caller.learning->Stop(caller.context().get(), request, &reply).ok());
+    EXPECT_EQ(v1::Question::STOPPED, ask(caller, run).what());
+    goOn(caller, run);
+  }
+}
+
+TEST_F(RemoteRun, ARunAtWorkGetsThePatienceThatItIsContinuedWithAndKeepsItWithoutOne) {
+  begin();
+  const Caller caller(address);
+  const std::int64_t run = start(caller, experiment());
+  ASSERT_EQ(v1::Question::VECTORS, ask(caller, run).what());
+  goOn(caller, run, 0.2);
+  goOn(caller, run);
+  const auto stateOf = [&] {
+    v1::RunsReply runs;
+    EXPECT_TRUE(caller.learning->Runs(caller.context().get(), v1::RunsRequest(), &runs).ok());
+    return runs.runs(0);
+  };
+  while (stateOf().state() != "stopped") ASSERT_TRUE(stateOf().here());
+  EXPECT_THAT(stateOf().message(), HasSubstr("has not answered"));
 }
 
 TEST_F(RemoteRun, PatienceIsATime) {

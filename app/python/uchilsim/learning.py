@@ -127,7 +127,8 @@ class Run:
                 np.array([i.fitness for i in reply.individuals]))
 
     def go_on(self, patience_s: float = 0) -> None:
-        """The server works on it until it is finished, waits or stops. patience_s: for one answer of a learner."""
+        """The server works on it until it is finished, waits or stops. patience_s: for one answer of a learner, also of
+        a run at work; 0: 600 s, or as it was."""
         self._take(self._client._call(self._client._learning.Continue,
                                       pb.ContinueRequest(run=self.number, patience_s=patience_s)))
 

@@ -101,8 +101,11 @@ Id startGrid(Database& database, const PluginHost& host, const GridSpec& spec, G
 RunEnd continueGrid(Database& database, const PluginHost& host, Id grid, const StopFlag& stop,
                     const GridOptions& options) {
   database.grid(grid);  // an unknown grid leaves no lock file
-  const RunLock lock(database.path(), grid, "grid");
   if (isGridFinished(database, grid)) return RunEnd::finished;
+  const RunLock lock(database.path(), grid, "grid", [&] {
+    for (const GridCellRecord& cell : database.gridCells(grid))
+      if (cell.run != 0) database.requestStop(cell.run, false);
+  });
   GridWork work(database, host, grid, stop, options);
   if (work.learn() && work.settle() && work.tryPoints()) {
     work.progress.phase = "finished";

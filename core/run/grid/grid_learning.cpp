@@ -25,8 +25,7 @@ GridWork::GridWork(Database& database, const PluginHost& host, Id grid, const St
       spec_(storedGrid(record_.specJson, "grid " + std::to_string(grid))),
       method_(gridMethodFromText(record_.method)),
       cells_(cellsOf(spec_)),
-      begun_(Clock::now()),
-      looked_(Clock::now()) {
+      begun_(Clock::now()) {
   for (const GridCellRecord& stored : db_.gridCells(grid)) {
     if (stored.run == 0) continue;
     if (base_.genotype.empty()) {
@@ -37,7 +36,6 @@ GridWork::GridWork(Database& database, const PluginHost& host, Id grid, const St
       base_.start = own ? resolve(base_.genotype, own->parameters, "start/parameters") : std::vector<double>();
       simulator_ = db_.latestSimulator(stored.run).simulator;
     }
-    db_.requestStop(stored.run, false);
   }
   // What the cells have learned so far.
   std::map<int, GridBest> last;

@@ -84,12 +84,13 @@ Id startRun(Database& database, const PluginHost& host, const std::string& path,
 
 RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop,
                    const RunOptions& options) {
-  const RunLock lock(database.path(), run);
   if (database.run(run).state == RunState::finished) return RunEnd::finished;
   if (const auto grid = database.gridOfRun(run))
     throw InputError("run " + std::to_string(run) + " of " + database.path() + ": it is a cell of grid " +
                      std::to_string(*grid) + "; its cells go on together (btr grid)");
-  database.requestStop(run, false);
+  const RunLock lock(database.path(), run, "run", [&] {
+    if (!options.earlierStopCounts) database.requestStop(run, false);
+  });
   RunContext context(database, host, run, stop, options);
   const auto stopped = [&] {
     database.setRunState(run, RunState::stopped, "stopped; continue it at any time");
@@ -138,6 +139,10 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     }
     if (!adaptSimulator(context, stage)) return stopped();
   }
+}
+
+void forgetStop(Database& database, Id run) {
+  RunLock::ifNobodyWorks(database.path(), run, [&] { database.requestStop(run, false); });
 }
 
 bool isRunActive(const std::string& databasePath, Id run) { return RunLock::isHeld(databasePath, run); }

@@ -34,6 +34,7 @@ struct RunOptions {
   int jobs = 0;                    ///< worker processes, 0: as many as processors
   Workforce* workforce = nullptr;  ///< evaluates the trials in place of them, if there is one
   bool withoutRecordings = false;  ///< do not wait for recordings that a person has not attached
+  bool earlierStopCounts = false;  ///< one asked for since forgetStop(); else only one asked for from now on does
   std::function<void(const RunProgress&)> progress;
 };
 
@@ -50,6 +51,9 @@ Id startRun(Database& database, const PluginHost& host, const struct ExperimentS
 /// stage machine L1 → measure → (L2) → L3 → L1 …. All state is in the database: after kill -9 at any moment the next
 /// call goes on with the same bits as if nothing had happened. Throws InputError if another process works on this run.
 RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
+
+/// A stop that was asked for until now counts no longer, unless a process works on the run.
+void forgetStop(Database& database, Id run);
 
 /// True while some process works on this run.
 bool isRunActive(const std::string& databasePath, Id run);

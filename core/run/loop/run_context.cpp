@@ -17,8 +17,7 @@ RunContext::RunContext(Database& db, const PluginHost& plugins, Id run, const St
       prepared(prepareFromRun(record, plugins)),
       stop_(stop),
       options_(options),
-      begun_(Clock::now()),
-      looked_(Clock::now()) {
+      begun_(Clock::now()) {
   progress.totalGenerations = stageSetting("total_generations");
 }
 

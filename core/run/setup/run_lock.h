@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 
 #include "core/store/records.h"
@@ -10,18 +11,27 @@ namespace btr {
 /// way, so a killed run can be resumed at once.
 class RunLock {
  public:
-  /// Throws InputError if another process holds it or the file cannot be made. `what` is "run" or "grid".
-  RunLock(const std::string& databasePath, Id run, const std::string& what = "run");
+  /// Throws InputError if another process holds it or the file cannot be made. `what` is "run" or "grid". `first` is
+  /// done once nobody else can begin and before isHeld() says so: what others ask of a process at work comes behind it.
+  RunLock(const std::string& databasePath, Id run, const std::string& what = "run",
+          const std::function<void()>& first = {});
   ~RunLock();
   RunLock(const RunLock&) = delete;
   RunLock& operator=(const RunLock&) = delete;
 
+  /// Does `action` while nobody can begin to work. False, and nothing is done, if somebody does already.
+  static bool ifNobodyWorks(const std::string& databasePath, Id run, const std::function<void()>& action);
   /// True if some process holds it now.
   static bool isHeld(const std::string& databasePath, Id run, const std::string& what = "run");
 
  private:
-  std::string path_;
+  /// Claims it, without being at work yet; not isClaimed() if another process has.
+  struct Claim {};
+  RunLock(Claim, const std::string& path);
+  bool isClaimed() const { return claimed_; }
+
   int file_ = -1;
+  bool claimed_ = false;
 };
 
 }  // namespace btr

@@ -1,6 +1,6 @@
 /// Measured values come as files into a folder, one file a trial:
 ///   run-R-individual-I-trial-K.csv      K = 1, 2, … of this individual
-///   value,void,note                     the columns void (0 or 1) and note may be left out
+///   value,void,note                     the columns void (0 or 1) and note may be left out; as MeasuredTable reads it
 ///   0.41,0,fell at the end
 /// What is wanted lies beside it, run-R-individual-I.wanted.csv with the columns parameter,value,unit. A file whose
 /// last line has no end is still being written: it is read when the run goes on.
@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <sstream>
 
+#include "core/plugin/measured_table.h"
 #include "core/plugin/plugin.h"
 
 namespace {
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class FolderRobot final : public btr::RealRobot {
  public:
   explicit FolderRobot(const btr::RealityContext& context)
-      : folder_(context.texts.at("folder")), genotype_(context.genotype) {
+      : folder_(context.texts.at("folder")), genotype_(context.genotype), unit_(context.unit) {
     if (!fs::is_directory(folder_)) throw btr::InputError("reality csv_folder", folder_.string(), "a folder");
   }
 
@@ -44,41 +44,28 @@ class FolderRobot final : public btr::RealRobot {
     return text;
   }
 
-  static std::optional<btr::RealAnswer> answerIn(const fs::path& file) {
+  std::optional<btr::RealAnswer> answerIn(const fs::path& file) const {
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) throw btr::InputError(file.string() + ": cannot be read");
     if (text.empty() || text.back() != '\n') return std::nullopt;
+    if (text.find_first_not_of("\r\n") == std::string::npos) return std::nullopt;
     std::istringstream lines(text);
-    btr::CsvReader table(lines, file.string());
-    std::vector<std::string> header, row, more;
-    if (!table.next(header) || !table.next(row)) return std::nullopt;
-    if (row.size() != header.size())
-      throw btr::InputError(table.at() + ": " + std::to_string(row.size()) + " fields; " +
-                            std::to_string(header.size()) + " as the columns");
-    std::map<std::string, std::string> cells;
-    for (std::size_t c = 0; c < header.size(); ++c) {
-      const bool known = header[c] == "value" || header[c] == "void" || header[c] == "note";
-      if (!known || !cells.emplace(header[c], row[c]).second)
-        throw btr::InputError(file.string(), "the column \"" + header[c] + "\"", "value, void and note, each once");
-    }
-    if (!cells.contains("value")) throw btr::InputError(file.string() + ": the column value is missing");
-    const std::string place = table.at();
-    if (table.next(more)) throw btr::InputError(table.at() + ": one trial a file, one line below the columns");
-    const std::string &marked = cells["void"], &value = cells["value"];
-    if (!marked.empty() && marked != "0" && marked != "1")
-      throw btr::InputError(place + " void", "\"" + marked + "\"", "0 or 1");
-    btr::RealAnswer answer{0, marked == "1", cells["note"]};
-    if (value.empty() && answer.isVoid) return answer;
-    const auto number = btr::toNumber(value);
-    if (!number || std::abs(*number) > 1e9)
-      throw btr::InputError(place + " value", "\"" + value + "\"", "a number from -1e9 to 1e9");
-    answer.fitness = *number;
-    return answer;
+    btr::MeasuredTable table(lines, file.string(), unit_, btr::MeasuredTable::Of::oneTrial);
+    btr::MeasuredRow row, more;
+    if (!table.next(row)) return std::nullopt;
+    if (std::abs(row.value) > largest)
+      throw btr::InputError(table.atValue(), btr::toText(row.value), "a number from -1e9 to 1e9");
+    if (table.next(more))
+      throw btr::InputError(file.string() + " line " + std::to_string(table.line()) +
+                            ": one trial a file, one line below the columns");
+    return btr::RealAnswer{row.value, row.isVoid, row.note};
   }
 
+  static constexpr double largest = 1e9;
   fs::path folder_;
   std::vector<btr::Parameter> genotype_;
+  std::string unit_;
 };
 
 class CsvFolder final : public btr::Reality {

@@ -134,5 +134,20 @@ TEST_F(Realities, AFolderIsAskedAndWaitedFor) {
   EXPECT_FALSE(opened->measure(task_));
 }
 
+TEST_F(Realities, AFilesValueMayHaveADecimalCommaAndAUnit) {
+  RealityContext context = contextOf({{"folder", fs::path(folder_.file("x")).parent_path().string()}});
+  context.unit = "m";
+  const auto opened = host().reality("csv_folder")->open(context);
+  const auto valueIn = [&](const std::string& text) {
+    writeFile(folder_.file("run-3-individual-17-trial-1.csv"), text);
+    return opened->measure(task_)->fitness;
+  };
+  EXPECT_EQ(0.415, valueIn("value [cm];note\r\n41,5;straight\r\n"));
+  EXPECT_EQ(0.415, valueIn("value_mm\n415\n"));
+  EXPECT_EQ(0.5, valueIn("value\n0,5\n"));
+  EXPECT_THROW(valueIn("value [kg]\n1\n"), InputError);
+  EXPECT_THROW(valueIn("value,note\n0,53\n"), InputError) << "a decimal comma, or a note";
+}
+
 }  // namespace
 }  // namespace btr::test

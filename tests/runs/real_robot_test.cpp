@@ -1,5 +1,6 @@
 // Where real fitness comes from is settled before a run begins; what a robot answers is looked at before it counts.
 #include "core/run/loop/robot.h"
+#include "core/run/loop/waiting.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,6 +67,24 @@ TEST(RealRobots, WhatARobotThatFailedSaidIsKeptWithTheRunUntilItGoesOn) {
   rig.answers({"0.4"});
   EXPECT_EQ(RunEnd::finished, run.goOn());
   EXPECT_EQ("", run.database_.run(run.run_).message);
+}
+
+TEST(RealRobots, WhatARobotThatFailedSaidHoldsUntilAValueIsEntered) {
+  Rig rig;
+  rig.answers({"\"far\""});
+  SmallKickRun run = measuredBy(rig.asReality());
+  const std::string said = refusal([&] { run.goOn(); });
+  const auto saysNow = [&] { return messageNow(run.database_, run.database_.run(run.run_)); };
+  EXPECT_EQ(said, saysNow());
+  const auto enter = [&](const MeasurementTask& task) {
+    run.database_.addMeasurement(
+        {.run = run.run_, .individual = task.individual, .value = 0.4, .enteredAt = "2099-01-01T00:00:00Z"});
+  };
+  const std::vector<MeasurementTask> tasks = run.database_.measurementTasks(run.run_, 1);
+  enter(tasks[0]);
+  EXPECT_EQ("measurement stage 1: 1 of 2 individuals wait for real fitness", saysNow());
+  enter(tasks[1]);
+  EXPECT_EQ("measurement stage 1: all values are entered; btr run goes on", saysNow());
 }
 
 TEST(RealRobots, ADoubtfulValueWaitsForAPersonWhoConfirmsIt) {

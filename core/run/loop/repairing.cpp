@@ -5,6 +5,7 @@
 
 #include "core/run/loop/robot.h"
 #include "core/run/loop/run_context.h"
+#include "core/run/loop/waiting.h"
 #include "core/run/reality/reality_gap.h"
 #include "core/run/reality/recorded_analysis.h"
 #include "core/run/reality/recorded_robot.h"
@@ -159,7 +160,7 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
   if (!missing.empty() && !context.withoutRecordings()) {
     context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing.size()) +
-                               " of " + std::to_string(who.size()) + " individuals wait for a recording" +
+                               " of " + std::to_string(who.size()) + " individuals" + waitForRecording +
                                describe(context.prepared, pose) +
                                " (btr gap recordings import --individual); "
                                "btr run --without-recordings goes on with those that are there";

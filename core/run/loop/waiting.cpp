@@ -25,15 +25,16 @@ std::string waitingText(int stage, int iteration, int missing, int all, bool any
 }
 
 std::string messageNow(const Database& database, const RunRecord& run) {
-  // Of what else a run may wait for, a recording, no entered value tells anything.
-  const bool ofFitness = run.message.ends_with(waits) || run.message.ends_with(allVoid) ||
-                         run.message.starts_with("waits for real fitness");
-  if (run.state != RunState::waiting || !ofFitness) return run.message;
+  if (run.state != RunState::waiting || run.message.find(waitForRecording) != std::string::npos) return run.message;
   const int stage = run.stage + 1;
   std::vector<MeasurementTask> tasks = database.measurementTasks(run.id, stage);
   const int iteration = tasks.empty() ? 0 : tasks.back().iteration;
   std::erase_if(tasks, [&](const MeasurementTask& task) { return task.iteration != iteration; });
   const std::vector<MeasurementRecord> measured = database.measurements(run.id);
+  const bool ofFitness = run.message.ends_with(waits) || run.message.ends_with(allVoid) ||
+                         run.message.starts_with("waits for real fitness");
+  const auto isNew = [&](const MeasurementRecord& m) { return m.enteredAt > run.updatedAt; };
+  if (!ofFitness && std::ranges::none_of(measured, isNew)) return run.message;
   const auto all = static_cast<int>(tasks.size());
   const auto missing = static_cast<int>(
       std::ranges::count_if(tasks, [&](const MeasurementTask& task) { return !isSettled(task, measured); }));

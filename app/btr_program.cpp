@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/already_said.h"
 #include "app/btr_commands.h"
 #include "core/spec/error.h"
 #include "core/spec/system/process.h"
@@ -49,6 +50,8 @@ int runCommands(CLI::App& app, Shell& shell, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (app.exit(error) != 0) return badUsage;
     return closeOutput() ? done : badInput;
+  } catch (const AlreadySaid&) {
+    return badInput;
   } catch (const NotStored& error) {
     std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
     return shell.goesOn ? stoppedEarly : badInput;

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/already_said.h"
 #include "core/spec/error.h"
 #include "core/spec/system/child_process.h"
 
@@ -110,10 +111,8 @@ void CameraProcess::finish() {
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw InputError(WIFSIGNALED(status)
-                       ? std::string("camera: btr-camera crashed: ") + strsignal(WTERMSIG(status))
-                       : "camera: btr-camera ended before the session did; it says why in the line above");
+  if (WIFSIGNALED(status)) throw InputError(std::string("camera: btr-camera crashed: ") + strsignal(WTERMSIG(status)));
+  if (WEXITSTATUS(status) != 0) throw AlreadySaid();
 }
 
 }  // namespace btr::cli

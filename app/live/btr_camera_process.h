@@ -22,7 +22,7 @@ class CameraProcess {
   bool send(const std::string& line);
   /// So many bytes of its answers; false if it ended before, or hangs.
   bool read(std::uint8_t* bytes, std::size_t count);
-  /// Ends its input and waits. Throws InputError if it did not end well.
+  /// Ends its input and waits. Throws InputError if it crashed, AlreadySaid if it ended with an error.
   void finish();
 
  private:

@@ -31,10 +31,11 @@ diff -rq "$folder/frames" "$folder/again" > "$folder/differs" || fail "frames of
 expect 1 "a robot that is not there" "$btr" live "$game" --seconds 0.1 --camera nobody --frames "$folder/none"
 says err "nobody"
 says err "$robot"
-says err "ended before the session did; it says why"
+one_line
 expect 2 "frames without a camera" "$btr" live "$game" --seconds 0.1 --frames "$folder/none"
 expect 1 "a folder that cannot be" "$btr" live "$game" --seconds 0.1 --camera "$robot" --video "$folder/no/where.mp4"
 echo '{"format": "uchilsim-camera-1", "width_px": 1}' > "$folder/bad.json"
 expect 1 "a bad camera" "$btr" live "$game" --seconds 0.1 --camera "$robot" --camera-file "$folder/bad.json" --frames "$folder/none"
 says err "bad.json"
+one_line
 finish

@@ -194,8 +194,7 @@ bool MainWindow::focusNextPrevChild(bool next) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   pages_.sheet->finishEditing();
-  if (!runs_->mayClose()) return event->ignore();
-  drafts_->keep();
+  if (!drafts_->keep() || !runs_->mayClose()) return event->ignore();
   place_->keep();
   event->accept();
 }

@@ -8,6 +8,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QScreen>
@@ -36,6 +37,9 @@
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
+#include "ui/experiment/learner_form.h"
+#include "ui/experiment/parameter_field.h"
+#include "ui/experiment/parameter_form.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
 #include "ui/gap/analysis_setup.h"
@@ -377,6 +381,42 @@ class TestMainWindow : public QObject {
     QVERIFY(window->findChild<QDockWidget*>("dock.gap")->isHidden());
     QVERIFY(!window->findChild<QDockWidget*>("dock.fitness")->isHidden());
     QCOMPARE(window->draft().spec().name, std::string("My draft"));
+  }
+
+  void reopeningFindsNumbersThatAreNotAllowedAsTheyWereTyped() {
+    StoredRun stored;
+    Desk desk;
+    QStringList problems;
+    {
+      const auto window = desk.open(stored.qpath());
+      ExperimentSpec spec = StoredRun::spec();
+      spec.name = "My draft";
+      window->draft().setSpec(spec);
+      const auto others = window->draft().problems().size();
+      window->draft().findChild<ParameterForm*>("stages")->setTexts({{"repeats", "many"}});
+      window->draft().findChild<LearnerForm*>("learner")->numbers()->setTexts({{"population", "-3"}});
+      problems = window->draft().problems();
+      QCOMPARE(problems.size(), others + 2);
+      QVERIFY(window->close());
+    }
+    const auto window = desk.open(stored.qpath());
+    QCOMPARE(window->draft().spec().name, std::string("My draft"));
+    QCOMPARE(window->draft().problems(), problems);
+    QCOMPARE(*window->draft().findChild<ParameterForm*>("stages")->field("repeats")->text(), QString("many"));
+  }
+
+  void aDraftThatCannotBeReadAgainIsAskedAboutBeforeTheWindowCloses() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->draft().setSpec(StoredRun::spec());
+    auto* name = window->draft().findChild<QLineEdit*>("name");
+    name->selectAll();
+    QTest::keyClick(name, Qt::Key_Delete);
+    answerClosing("cancel");
+    QVERIFY(!window->close());
+    answerClosing("close");
+    QVERIFY(window->close());
   }
 
   void storesWhatIsEnteredAndGoesOnWhenAllIsMeasured() {

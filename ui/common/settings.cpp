@@ -97,6 +97,9 @@ void Settings::setDraft(const QString& json, const QString& folder) {
   store_.setValue("draft/folder", folder);
 }
 
+QVariantMap Settings::draftRefused() const { return store_.value("draft/refused").toMap(); }
+void Settings::setDraftRefused(const QVariantMap& texts) { store_.setValue("draft/refused", texts); }
+
 QString Settings::measurementDraft(const QString& database, qint64 run) const {
   return store_.value(draftKey(database, run)).toString();
 }

@@ -3,6 +3,7 @@
 #include <QSettings>
 #include <QString>
 #include <QStringList>
+#include <QVariantMap>
 #include <map>
 #include <set>
 
@@ -42,6 +43,8 @@ class Settings {
   QString draft() const;
   QString draftFolder() const;
   void setDraft(const QString& json, const QString& folder);
+  QVariantMap draftRefused() const;  ///< numbers of it that are not allowed, see ExperimentForm::refused()
+  void setDraftRefused(const QVariantMap& texts);
 
   /// Measurements of a run that were entered and not saved yet, as text; empty if there are none.
   QString measurementDraft(const QString& database, qint64 run) const;

@@ -168,16 +168,38 @@ void DraftController::start() {
   bench_.launcher().store(bench_.path(), spec, spec.seed, false);
 }
 
-void DraftController::keep() {
+bool DraftController::mayForget(const QString& why) {
+  if (!isUnsaved()) return true;
+  emit bench_.dockWanted("draft");
+  QMessageBox box(bench_.window());
+  box.setObjectName("forgetDraft");
+  box.setIcon(QMessageBox::Warning);
+  box.setWindowTitle(tr("The experiment cannot be kept"));
+  box.setTextFormat(Qt::PlainText);
+  box.setText(tr("The experiment in the form cannot be kept for the next start: %1").arg(why));
+  box.setInformativeText(tr("If the window is closed, the changes are lost."));
+  auto* close = box.addButton(tr("Close"), QMessageBox::DestructiveRole);
+  auto* cancel = box.addButton(QMessageBox::Cancel);
+  close->setObjectName("close");
+  cancel->setObjectName("cancel");
+  box.setDefaultButton(cancel);
+  box.setEscapeButton(cancel);
+  box.exec();
+  return box.clickedButton() == close;
+}
+
+bool DraftController::keep() {
   const ExperimentSpec spec = draft_.spec();
   const std::string json = btr::toJsonText(spec);
   try {
     experimentFromJson(json, "draft", spec.directory);
-  } catch (const std::exception&) {
-    return;
+  } catch (const std::exception& error) {
+    return mayForget(QString::fromUtf8(error.what()));
   }
   bench_.settings().setDraft(QString::fromStdString(json), QString::fromStdString(spec.directory));
+  bench_.settings().setDraftRefused(draft_.refused());
   bench_.settings().setFlag(unsavedFlag, isUnsaved());
+  return true;
 }
 
 void DraftController::restore() {
@@ -185,6 +207,7 @@ void DraftController::restore() {
   try {
     if (const QString json = settings.draft(); !json.isEmpty()) {
       show(experimentFromJson(json.toStdString(), "draft", settings.draftFolder().toStdString()));
+      draft_.showRefused(settings.draftRefused());
       keptUnsaved_ = settings.flag(unsavedFlag, false);
       return;
     }

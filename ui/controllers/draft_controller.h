@@ -24,11 +24,14 @@ class DraftController : public QObject {
   /// The form holds something that is in no file and no database.
   bool isUnsaved() const;
 
-  void keep();     ///< for the next start; also what is not finished, as far as it can be read again
+  /// For the next start, with numbers that are not allowed as they were typed. What cannot be read again is asked
+  /// about: false if the user stays.
+  bool keep();
   void restore();  ///< the draft of last time; on the first start an example
 
  private:
   bool mayReplace();
+  bool mayForget(const QString& why);
   void offerPluginsOf(const ExperimentSpec& spec);
   void show(const ExperimentSpec& spec);
   bool fresh();

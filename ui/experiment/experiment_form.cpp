@@ -353,6 +353,44 @@ ExperimentSpec ExperimentForm::spec() const {
   return spec;
 }
 
+std::map<QString, ParameterForm*> ExperimentForm::numbers() const {
+  std::map<QString, ParameterForm*> all{{"seed", seed_},
+                                        {"controller", controller_->numbers()},
+                                        {"fitness", fitness_->numbers()},
+                                        {"learner", learner_->numbers()},
+                                        {"searchStart", searchStart_->numbers()},
+                                        {"stages", stages_},
+                                        {"realityLearner", realityLearner_->numbers()},
+                                        {"realitySettings", realitySettings_},
+                                        {"reality", realityForm_->numbers(reality_->currentData().toString())},
+                                        {"standIn", standIn_},
+                                        {"adaptation", adaptation_->numbers()},
+                                        {"adaptationSettings", adaptationSettings_},
+                                        {"simulator", simulator_},
+                                        {"recordings", recordings_}};
+  std::erase_if(all, [](const auto& each) { return !each.second; });
+  return all;
+}
+
+QVariantMap ExperimentForm::refused() const {
+  QVariantMap all;
+  for (const auto& [name, form] : numbers()) {
+    QVariantMap texts;
+    for (const auto& [parameter, text] : form->refused()) texts[QString::fromStdString(parameter)] = text;
+    if (!texts.isEmpty()) all[name] = texts;
+  }
+  return all;
+}
+
+void ExperimentForm::showRefused(const QVariantMap& texts) {
+  for (const auto& [name, form] : numbers()) {
+    std::map<std::string, QString> own;
+    const QVariantMap typed = texts[name].toMap();
+    for (const auto& [parameter, text] : typed.asKeyValueRange()) own[parameter.toStdString()] = text.toString();
+    if (!own.empty()) form->setTexts(own);
+  }
+}
+
 QStringList ExperimentForm::problems() const {
   QStringList problems;
   if (name_->text().trimmed().isEmpty()) problems << tr("Name: at least one letter");

@@ -1,5 +1,6 @@
 #pragma once
 #include <QUndoStack>
+#include <QVariantMap>
 #include <QWidget>
 #include <functional>
 #include <map>
@@ -48,6 +49,10 @@ class ExperimentForm : public QWidget {
   /// Shows the spec; undo starts afresh. Throws InputError, with nothing changed, if a plugin's setting is not allowed.
   void setSpec(const ExperimentSpec& spec);
   ExperimentSpec spec() const;
+  /// The numbers that spec() leaves out because they are not allowed, as they were typed: for showRefused(), after the
+  /// setSpec() of a next start.
+  QVariantMap refused() const;
+  void showRefused(const QVariantMap& texts);
   bool isValid() const { return problems().isEmpty(); }
   QStringList problems() const;
   /// True since the last setSpec() or markSaved() if the user changed something.
@@ -73,6 +78,8 @@ class ExperimentForm : public QWidget {
   void copyRequested();  ///< of a read-only form: begin a new experiment from it
 
  private:
+  /// All that are shown, by name.
+  std::map<QString, ParameterForm*> numbers() const;
   void offerRealities();
   QWidget* makeGeneral();
   QWidget* makeReality();

@@ -28,6 +28,7 @@ class LearnerForm : public QWidget {
   void setReadOnly(bool readOnly);
   void resetAll() { page_->resetAll(); }
   int changedCount() const { return page_->changedCount(); }
+  ParameterForm* numbers() const { return page_->numbers(); }
 
  signals:
   void changed();

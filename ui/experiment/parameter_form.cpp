@@ -86,6 +86,19 @@ Values ParameterForm::values() const {
   return values;
 }
 
+std::map<std::string, QString> ParameterForm::refused() const {
+  std::map<std::string, QString> texts;
+  for (const ParameterField* field : fields_)
+    if (!field->value()) texts[field->parameter().name] = *field->text();
+  return texts;
+}
+
+void ParameterForm::setTexts(const std::map<std::string, QString>& texts) {
+  for (ParameterField* field : fields_)
+    if (const auto found = texts.find(field->parameter().name); found != texts.end()) field->setText(found->second);
+  announce();
+}
+
 bool ParameterForm::isValid() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto* field) { return field->value().has_value(); });
 }

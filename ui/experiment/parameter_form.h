@@ -1,5 +1,6 @@
 #pragma once
 #include <QWidget>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -31,6 +32,10 @@ class ParameterForm : public QWidget {
   void setValues(const Values& values);
   /// What was set, also where it equals the default; what is not allowed is left out (see isValid()).
   Values values() const;
+  /// The texts that values() leaves out because they are not allowed, by name, to be shown again by setTexts().
+  std::map<std::string, QString> refused() const;
+  /// As if they were typed, but no undo step; names that are not declared are passed over.
+  void setTexts(const std::map<std::string, QString>& texts);
   bool isValid() const;
   QStringList problems() const;  ///< "Population: 1 is not allowed; …"
 

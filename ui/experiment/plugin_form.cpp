@@ -127,12 +127,12 @@ void PluginForm::setChoice(const PluginChoice& choice) {
                                         : tr("%1 (not installed)").arg(QString::fromStdString(choice.name)));
   }
   select(index);
-  if (ParameterForm* form = page()) form->setValues(values);
+  if (ParameterForm* form = numbers()) form->setValues(values);
   emit changed();
 }
 
 PluginChoice PluginForm::choice() const {
-  const ParameterForm* form = page();
+  const ParameterForm* form = numbers();
   if (!form) return missing_;
   const Offer& offer = offers_[std::size_t(chosen_)];
   PluginChoice choice = choiceOf(offer.name.toStdString(), form->values(), offer.settings);
@@ -141,10 +141,10 @@ PluginChoice PluginForm::choice() const {
   return choice;
 }
 
-bool PluginForm::isValid() const { return page() && problems().isEmpty(); }
+bool PluginForm::isValid() const { return numbers() && problems().isEmpty(); }
 
 QStringList PluginForm::problems() const {
-  if (const ParameterForm* form = page()) {
+  if (const ParameterForm* form = numbers()) {
     QStringList problems = form->problems();
     for (const std::string& path : offers_[std::size_t(chosen_)].paths)
       if (pathEdit(chosen_, path)->text().trimmed().isEmpty())
@@ -164,12 +164,12 @@ void PluginForm::setReadOnly(bool readOnly) {
 }
 
 void PluginForm::resetAll() {
-  if (ParameterForm* form = page()) form->resetAll();
+  if (ParameterForm* form = numbers()) form->resetAll();
 }
 
-int PluginForm::changedCount() const { return page() ? page()->changedCount() : 0; }
+int PluginForm::changedCount() const { return numbers() ? numbers()->changedCount() : 0; }
 
-ParameterForm* PluginForm::page() const {
+ParameterForm* PluginForm::numbers() const {
   return chosen_ < offerCount() ? pages_[std::size_t(chosen_)]->findChild<ParameterForm*>() : nullptr;
 }
 

@@ -39,6 +39,7 @@ class PluginForm : public QWidget {
   void setReadOnly(bool readOnly);
   void resetAll();
   int changedCount() const;
+  ParameterForm* numbers() const;  ///< of the chosen plugin, or nullptr
 
  signals:
   void changed();
@@ -47,7 +48,6 @@ class PluginForm : public QWidget {
   void add(const Offer& offer);
   QLineEdit* addPath(QWidget* page, const Offer& offer, const std::string& name);
   QLineEdit* pathEdit(int offer, const std::string& name) const;
-  ParameterForm* page() const;  ///< of the chosen plugin, or nullptr
   void select(int index);
   int offerCount() const { return int(offers_.size()); }
 

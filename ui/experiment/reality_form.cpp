@@ -101,6 +101,11 @@ QStringList RealityForm::problems(const QString& name) const {
   return problems + shown->numbers->problems();
 }
 
+ParameterForm* RealityForm::numbers(const QString& name) const {
+  const Page* shown = page(name);
+  return shown ? shown->numbers : nullptr;
+}
+
 void RealityForm::setReadOnly(bool readOnly) {
   for (const Page& page : pages_) {
     for (QLineEdit* edit : page.texts) edit->setReadOnly(readOnly);

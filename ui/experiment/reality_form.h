@@ -30,6 +30,7 @@ class RealityForm : public QWidget {
   void setOptions(const QString& name, const RealityOptions& options);
   RealityOptions options(const QString& name) const;
   QStringList problems(const QString& name) const;
+  ParameterForm* numbers(const QString& name) const;  ///< of its page; nullptr if it has none
   void setReadOnly(bool readOnly);
 
  signals:

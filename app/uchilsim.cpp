@@ -31,6 +31,22 @@ QString chooseDatabase(const Arguments& arguments, const btr::ui::Settings& sett
   return recent.isEmpty() ? QStringLiteral("experiments.db") : recent.first();
 }
 
+// Of a picture: no screen makes the window smaller, and none that was maximized larger; only what stands in it may.
+void keepSize(QWidget& window, const QSize& size) {
+  window.setWindowState(Qt::WindowNoState);
+  window.setFixedSize(size.expandedTo(window.minimumSizeHint()));
+}
+
+// False if it cannot be written.
+bool savePicture(QWidget& window, const Arguments& arguments) {
+  if (window.width() != arguments.width || window.height() != arguments.height)
+    std::fprintf(stderr, "%s: %d × %d instead of %d × %d: the window cannot have that size\n",
+                 arguments.screenshot.c_str(), window.width(), window.height(), arguments.width, arguments.height);
+  if (window.grab().save(QString::fromStdString(arguments.screenshot))) return true;
+  std::fprintf(stderr, "%s: cannot be written\n", arguments.screenshot.c_str());
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -49,9 +65,9 @@ int main(int argc, char** argv) {
   commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->transform(btr::cli::wholeNumber(1));
   commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
   commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");
-  commandLine.add_option("--width", arguments.width, "of the window in the picture")
+  commandLine.add_option("--width", arguments.width, "of the window in the picture, whatever the screen's")
       ->transform(btr::cli::wholeNumber(640, 8000));
-  commandLine.add_option("--height", arguments.height, "of the window in the picture")
+  commandLine.add_option("--height", arguments.height, "of the window in the picture, whatever the screen's")
       ->transform(btr::cli::wholeNumber(480, 8000));
   commandLine.add_option("--delay-ms", arguments.delay_ms, "time to load before the picture is taken")
       ->transform(btr::cli::wholeNumber(0, 600000));
@@ -72,7 +88,7 @@ int main(int argc, char** argv) {
       throw btr::InputError(database.toStdString() + ": there is no such database; \"btr run EXPERIMENT --db " +
                             database.toStdString() + "\" makes one, and no name opens the last one");
     if (!arguments.look.empty()) theme.apply(btr::ui::lookFromText(QString::fromStdString(arguments.look)));
-    if (!arguments.screenshot.empty()) window.resize(arguments.width, arguments.height);
+    if (!arguments.screenshot.empty()) keepSize(window, {arguments.width, arguments.height});
     window.show();
     // Only a name that the user has typed is asked about.
     if (!arguments.database.empty() || QFileInfo::exists(database)) window.openDatabase(database);
@@ -85,13 +101,9 @@ int main(int argc, char** argv) {
     if (arguments.grid) window.grids().show(arguments.grid);
     if (arguments.replayBest) window.bench().whenSelected([&window] { window.replays().replayBest(); });
 
-    int result = 0;
     if (!arguments.screenshot.empty())
-      QTimer::singleShot(arguments.delay_ms, &window, [&] {
-        result = window.grab().save(QString::fromStdString(arguments.screenshot)) ? 0 : 1;
-        if (result) std::fprintf(stderr, "%s: cannot be written\n", arguments.screenshot.c_str());
-        QApplication::exit(result);
-      });
+      QTimer::singleShot(arguments.delay_ms, &window,
+                         [&] { QApplication::exit(savePicture(window, arguments) ? 0 : 1); });
     return QApplication::exec();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -12,8 +12,9 @@ export XDG_RUNTIME_DIR=$folder XDG_CONFIG_HOME=$folder HOME=$folder QT_QPA_PLATF
 
 cat > "$folder/session.sh" <<'S'
 program=$1 folder=$2
-"$program" "$folder/window.db" --select-run 1 --screenshot "$folder/window.png" || { echo "no picture: exit code $?"; exit 1; }
+"$program" "$folder/window.db" --select-run 1 --width 1920 --screenshot "$folder/window.png" || { echo "no picture: exit code $?"; exit 1; }
 [ "$(stat -c %s "$folder/window.png")" -gt 30000 ] || { echo "the picture is empty"; exit 1; }
+file "$folder/window.png" | grep -q "1920 x 1000" || { echo "the picture is no larger than the screen"; exit 1; }
 "$program" "$folder/window.db" --select-run 1 &
 window=$(timeout 60 xdotool search --sync --onlyvisible --name UCHILSIM | tail -n 1)
 [ -n "$window" ] || { echo "no window appeared"; kill %1; exit 1; }

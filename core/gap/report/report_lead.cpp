@@ -112,7 +112,7 @@ std::string errorTextOf(const ReportLead& lead) {
   const std::string whose = lead.heldOut ? "On recordings that no fit saw, " : "Cross-validated, ";
   return whose + e.channel + " is off by " + withUnit(e.before, e.unit) + " as given and by " +
          withUnit(e.after, e.unit) + " with what was found (root mean square): " + changeText(e.before, e.after) +
-         ". The sensor itself is good for " + withUnit(e.noiseFloor, e.unit) + ".";
+         ". Noise alone makes " + withUnit(e.noiseFloor, e.unit) + ".";
 }
 
 /// The series whose error fell most, among trials that no fit saw if there are some.

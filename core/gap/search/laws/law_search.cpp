@@ -185,7 +185,8 @@ void takeBack(const FitProblem& problem, SearchResult& found, std::size_t effect
 
 constexpr const char* aCurveDoes = "a curve that was learned does as well without it";
 
-/// Effects that are not missed with the law beside them, or only as another size, fall; the least missed one first.
+/// Effects that are not missed with the law beside them, or only as another size, fall; the least missed one first. One
+/// without which there is no law stays, and the law goes.
 void dropWhatTheLawReplaces(const FitProblem& problem, SearchResult& found, LawBesideNames& result,
                             const SearchThresholds& thresholds) {
   const SearchThresholds::Law& limits = thresholds.law;
@@ -203,11 +204,15 @@ void dropWhatTheLawReplaces(const FitProblem& problem, SearchResult& found, LawB
       fallen = i;
     }
     if (!fallen) return;
-    result.fell.push_back(found.effects[*fallen].effect.text());
+    const SearchResult before = found;
     const FitModel model = found.final.fit.model.without(*fallen);
     takeBack(problem, found, *fallen, fitAndScore(problem, model, found.final.fit.shifts, limits.iterations),
              aCurveDoes);
     result.law = learnLaw(problem, found.final, found.finalLinear, problem.jobs, thresholds);
+    if (result.law)
+      result.fell.push_back(before.effects[*fallen].effect.text());
+    else
+      found = before;
   }
 }
 
@@ -225,6 +230,52 @@ bool passes(const Scored& before, const Scored& after, double share, std::size_t
   const PairedTest test = compare(before.blocks, after.blocks);
   return test.t > limits.leastT && test.pValue * static_cast<double>(looked) <= limits.mostFalse &&
          before.mean() - after.mean() >= share * excessOf(before);
+}
+
+/// The trials that were made in the same circumstances (settings of the mapping: gains, loads) as others, together.
+std::vector<Values> circumstancesOf(const FitProblem& problem) {
+  std::vector<Values> all;
+  for (const FitTrial& trial : problem.trials)
+    if (std::ranges::find(all, trial.recording.settings) == all.end()) all.push_back(trial.recording.settings);
+  return all;
+}
+
+/// The segments of some trials, and their shifts.
+struct Part {
+  FitProblem problem;
+  std::vector<std::vector<double>> shifts;
+};
+
+Part partOf(const FitProblem& problem, const Fit& fit, const Values& circumstances, bool made) {
+  Part part{problem, {}};
+  part.problem.segments.clear();
+  for (std::size_t s = 0; s < problem.segments.size(); ++s)
+    if ((problem.trials[problem.segments[s].trial].recording.settings == circumstances) == made) {
+      part.problem.segments.push_back(problem.segments[s]);
+      part.shifts.push_back(fit.shifts[s]);
+    }
+  return part;
+}
+
+/// The error of trials in some circumstances by a fit to all others.
+double errorElsewhere(const FitProblem& problem, const Fit& fit, const Values& circumstances, int iterations) {
+  const Part others = partOf(problem, fit, circumstances, false), those = partOf(problem, fit, circumstances, true);
+  const Fit ofOthers = fitModel(others.problem, fit.model, others.shifts, {iterations});
+  return residualsOf(those.problem, ofOthers.model, those.shifts).squaredNorm();
+}
+
+/// Whether a law also helps in circumstances that it was not fitted to, where recordings have several: a curve that
+/// bends with a servo's gain predicts none that is not there. (XL330: curves over the motor's torque that halve the
+/// error at two gains and double it at the third.)
+bool holdsElsewhere(const FitProblem& problem, const Fit& without, const Fit& with, int iterations) {
+  const std::vector<Values> circumstances = circumstancesOf(problem);
+  if (circumstances.size() < 2) return true;
+  double before = 0, after = 0;
+  for (const Values& each : circumstances) {
+    before += errorElsewhere(problem, without, each, iterations);
+    after += errorElsewhere(problem, with, each, iterations);
+  }
+  return after < before;
 }
 
 void rate(LearnedLaw& law, const Scored& without, std::size_t looked) {
@@ -245,7 +296,8 @@ std::optional<LearnedLaw> secondCurve(const FitProblem& problem, const LearnedLa
   LawSearch search(problem, first.scored.fit.model.without(first.scored.fit.model.effects.size() - 1), jobs,
                    thresholds);
   auto two = search.extend(first.law, first.scored.fit, first.linear);
-  if (!two || !passes(first.scored, two->scored, thresholds.law.secondShare, search.looked(), thresholds.law))
+  if (!two || !passes(first.scored, two->scored, thresholds.law.secondShare, search.looked(), thresholds.law) ||
+      !holdsElsewhere(problem, first.scored.fit, two->scored.fit, thresholds.law.iterations))
     return std::nullopt;
   measure(problem, *two);
   rate(*two, without, search.looked());
@@ -298,7 +350,9 @@ std::optional<LearnedLaw> learnLaw(const FitProblem& problem, const Scored& with
   if (excessOf(without) < limits.leastExcess || !canLearn(problem)) return std::nullopt;
   LawSearch search(problem, without.fit.model, jobs, thresholds);
   auto law = search.extend({}, without.fit, linear);
-  if (!law || !passes(without, law->scored, limits.leastShare, search.looked(), limits)) return std::nullopt;
+  if (!law || !passes(without, law->scored, limits.leastShare, search.looked(), limits) ||
+      !holdsElsewhere(problem, without.fit, law->scored.fit, limits.iterations))
+    return std::nullopt;
   measure(problem, *law);
   rate(*law, without, search.looked());
   return law;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -43,8 +44,9 @@ WorldDesk::~WorldDesk() {
   // A log says where its session ended.
   try {
     end();
-  } catch (const std::exception&) {
-    // The disk is full: the log is whole up to its last act, as of a session that was killed.
+  } catch (const std::exception& error) {
+    // The disk may be full: the log is whole up to its last act, as of a session that was killed.
+    std::fprintf(stderr, "the log of a world has no end: %s\n", error.what());
   }
 }
 

@@ -31,22 +31,15 @@ std::vector<std::size_t> followed(const FitTrial& trial) {
 
 bool followsMotion(const FitTrial& trial) { return !followed(trial).empty(); }
 
-/// A recorded torque that drives a joint. A command is known exactly.
-bool isMeasuredTorque(const FitTrial& trial, const Input& input) {
-  const auto name = parseChannel(trial.recording.channels[input.column]);
-  return input.what == Input::What::command && name &&
-         (name->quantity == "torque_nm" || name->quantity == "torque_n" || name->quantity == "force_n");
-}
-
 bool isDrivenByTorques(const FitTrial& trial) {
-  return std::ranges::any_of(trial.binding.inputs, [&](const Input& input) { return isMeasuredTorque(trial, input); });
+  return std::ranges::any_of(trial.binding.inputs, &Input::isMeasuredTorque);
 }
 
 /// Columns of inputs that a sensor told.
 std::vector<std::size_t> recordedInputs(const FitTrial& trial) {
   std::vector<std::size_t> columns = followed(trial);
   for (const Input& input : trial.binding.inputs)
-    if (isMeasuredTorque(trial, input)) columns.push_back(input.column);
+    if (input.isMeasuredTorque) columns.push_back(input.column);
   return columns;
 }
 

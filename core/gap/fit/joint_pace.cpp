@@ -54,8 +54,9 @@ std::map<std::string, JointPace> pacesOf(const FitProblem& problem) {
       if (measured.what != Measured::What::position && measured.what != Measured::What::rate) continue;
       const SceneRobot& robot = scene.robots[measured.object];
       const std::string at = robot.name + "." + robot.model.joints[measured.part].name;
-      JointPace& pace = paces[at];
-      if (counts.find(at) == counts.end()) {
+      const auto [place, isNew] = paces.try_emplace(at);
+      JointPace& pace = place->second;
+      if (isNew) {
         pace.torque = largestTorque(robot.drives[measured.part]);
         pace.torqueIsFitted = isTorqueFitted(problem, at, measured, pace.torque);
       }

@@ -503,4 +503,19 @@ std::vector<double> residualsBeside(const FitProblem& problem, const Segment& se
   return compared > 0 ? residuals : residualsOf(problem, segment, scene, shift);
 }
 
+FitProblem only(const FitProblem& problem, const std::vector<std::size_t>& trials) {
+  FitProblem part = problem;
+  std::erase_if(part.segments,
+                [&](const Segment& segment) { return std::ranges::find(trials, segment.trial) == trials.end(); });
+  return part;
+}
+
+std::vector<std::vector<double>> only(const FitProblem& problem, const std::vector<std::vector<double>>& shifts,
+                                      const std::vector<std::size_t>& trials) {
+  std::vector<std::vector<double>> part;
+  for (std::size_t s = 0; s < problem.segments.size(); ++s)
+    if (std::ranges::find(trials, problem.segments[s].trial) != trials.end()) part.push_back(shifts[s]);
+  return part;
+}
+
 }  // namespace btr

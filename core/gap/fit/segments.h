@@ -11,6 +11,11 @@ namespace btr {
 /// Cuts all trials into segments of `window_s` (0: whole trials), with blocks and folds.
 void cutSegments(FitProblem& problem, double window_s);
 
+/// The problem with some of its trials alone, and of shifts by segment those of these.
+FitProblem only(const FitProblem& problem, const std::vector<std::size_t>& trials);
+std::vector<std::vector<double>> only(const FitProblem& problem, const std::vector<std::vector<double>>& shifts,
+                                      const std::vector<std::size_t>& trials);
+
 /// The state at a row from the samples on both sides of it, and how uncertain each coordinate is.
 StartState stateAt(const FitProblem& problem, std::size_t trial, std::size_t row, std::vector<Nuisance>& nuisances);
 

@@ -136,6 +136,7 @@ class Binder {
     if (drive.kind == Drive::Kind::torque) {
       driven = forceCommand || torque;
       if (driven) input(Input::What::command, forceCommand ? *forceCommand : *torque);
+      if (driven) binding_.inputs.back().isMeasuredTorque = !forceCommand;
       if (!forceCommand) torque.reset();
       if (!driven) binding_.notes.push_back(name + ": no torque_nm or force_n column drives it; it gets none");
     } else if (drive.kind == Drive::Kind::dcMotor) {

@@ -15,6 +15,7 @@ struct Binding {
     What what = What::command;
     std::size_t robot = 0, joint = 0;
     std::size_t column = 0;
+    bool isMeasuredTorque = false;  ///< a sensor told what drives the joint, with its noise; a command is exact
   };
   struct Measured {
     enum class What { position, rate, torque, basePosition, baseOrientation, ballPosition };

@@ -195,17 +195,18 @@ bool tellsNothing(const Findings& e, const SearchThresholds::Verdict& limits) {
 void judgeUntold(GapReport& report, const FitProblem& problem, const Findings& e,
                  const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::notExcited;
-  if (problem.noisyTorques)
-    report.nextStep =
+  report.sentence =
+      e.moves ? "These recordings are sensitive to none of the calibrated numbers, and to no effect of a typical size"
+              : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors;
+  std::string remedy = "Record larger and faster motions, with reversals.";
+  if (problem.noisyTorques) {
+    report.sentence += ", as the noise of the recorded torques moves the joints by about as much";
+    remedy = report.nextStep =
         "Let the joints follow the recorded motion (\"drive\": \"motion\" in the scene), then analyse again: torques "
         "are "
         "compared then, which noise in them disturbs less.";
-  report.sentence =
-      (e.moves ? "These recordings are sensitive to none of the calibrated numbers, and to no effect of a typical size"
-               : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
-      (problem.noisyTorques ? ", as the noise of the recorded torques moves the joints by about as much" : "") +
-      ": they cannot tell the simulator from reality. " +
-      (problem.noisyTorques ? report.nextStep : "Record larger and faster motions, with reversals.");
+  }
+  report.sentence += ": they cannot tell the simulator from reality. " + remedy;
 }
 
 std::string errorText(const Findings& e) {

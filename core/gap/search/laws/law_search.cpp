@@ -8,6 +8,7 @@
 #include "core/gap/fit/parallel.h"
 #include "core/gap/replay/followed_torques.h"
 #include "core/gap/search/laws/law_screen.h"
+#include "core/gap/search/laws/other_settings.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/selection.h"
 #include "core/spec/error.h"
@@ -232,52 +233,6 @@ bool passes(const Scored& before, const Scored& after, double share, std::size_t
          before.mean() - after.mean() >= share * excessOf(before);
 }
 
-/// The trials that were made in the same circumstances (settings of the mapping: gains, loads) as others, together.
-std::vector<Values> circumstancesOf(const FitProblem& problem) {
-  std::vector<Values> all;
-  for (const FitTrial& trial : problem.trials)
-    if (std::ranges::find(all, trial.recording.settings) == all.end()) all.push_back(trial.recording.settings);
-  return all;
-}
-
-/// The segments of some trials, and their shifts.
-struct Part {
-  FitProblem problem;
-  std::vector<std::vector<double>> shifts;
-};
-
-Part partOf(const FitProblem& problem, const Fit& fit, const Values& circumstances, bool made) {
-  Part part{problem, {}};
-  part.problem.segments.clear();
-  for (std::size_t s = 0; s < problem.segments.size(); ++s)
-    if ((problem.trials[problem.segments[s].trial].recording.settings == circumstances) == made) {
-      part.problem.segments.push_back(problem.segments[s]);
-      part.shifts.push_back(fit.shifts[s]);
-    }
-  return part;
-}
-
-/// The error of trials in some circumstances by a fit to all others.
-double errorElsewhere(const FitProblem& problem, const Fit& fit, const Values& circumstances, int iterations) {
-  const Part others = partOf(problem, fit, circumstances, false), those = partOf(problem, fit, circumstances, true);
-  const Fit ofOthers = fitModel(others.problem, fit.model, others.shifts, {iterations});
-  return residualsOf(those.problem, ofOthers.model, those.shifts).squaredNorm();
-}
-
-/// Whether a law also helps in circumstances that it was not fitted to, where recordings have several: a curve that
-/// bends with a servo's gain predicts none that is not there. (XL330: curves over the motor's torque that halve the
-/// error at two gains and double it at the third.)
-bool holdsElsewhere(const FitProblem& problem, const Fit& without, const Fit& with, int iterations) {
-  const std::vector<Values> circumstances = circumstancesOf(problem);
-  if (circumstances.size() < 2) return true;
-  double before = 0, after = 0;
-  for (const Values& each : circumstances) {
-    before += errorElsewhere(problem, without, each, iterations);
-    after += errorElsewhere(problem, with, each, iterations);
-  }
-  return after < before;
-}
-
 void rate(LearnedLaw& law, const Scored& without, std::size_t looked) {
   law.shareOfRest = std::clamp(1 - law.scored.mean() / without.mean(), 0.0, 1.0);
   law.pValue = std::min(
@@ -297,7 +252,7 @@ std::optional<LearnedLaw> secondCurve(const FitProblem& problem, const LearnedLa
                    thresholds);
   auto two = search.extend(first.law, first.scored.fit, first.linear);
   if (!two || !passes(first.scored, two->scored, thresholds.law.secondShare, search.looked(), thresholds.law) ||
-      !holdsElsewhere(problem, first.scored.fit, two->scored.fit, thresholds.law.iterations))
+      !holdsAtOtherSettings(problem, first.scored.fit, two->scored.fit, thresholds.law.iterations))
     return std::nullopt;
   measure(problem, *two);
   rate(*two, without, search.looked());
@@ -351,7 +306,7 @@ std::optional<LearnedLaw> learnLaw(const FitProblem& problem, const Scored& with
   LawSearch search(problem, without.fit.model, jobs, thresholds);
   auto law = search.extend({}, without.fit, linear);
   if (!law || !passes(without, law->scored, limits.leastShare, search.looked(), limits) ||
-      !holdsElsewhere(problem, without.fit, law->scored.fit, limits.iterations))
+      !holdsAtOtherSettings(problem, without.fit, law->scored.fit, limits.iterations))
     return std::nullopt;
   measure(problem, *law);
   rate(*law, without, search.looked());

@@ -21,14 +21,6 @@
 namespace btr {
 namespace {
 
-/// The problem with some of its trials alone.
-FitProblem only(const FitProblem& problem, const std::vector<std::size_t>& trials) {
-  FitProblem part = problem;
-  std::erase_if(part.segments,
-                [&](const Segment& segment) { return std::ranges::find(trials, segment.trial) == trials.end(); });
-  return part;
-}
-
 std::vector<double> meanByTrial(const FitProblem& problem, const Eigen::VectorXd& residuals) {
   std::vector<double> squares(problem.trials.size(), 0), counts(problem.trials.size(), 0);
   Eigen::Index at = 0;

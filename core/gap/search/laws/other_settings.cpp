@@ -23,6 +23,13 @@ Trials allBut(const FitProblem& problem, const Trials& trials) {
   return others;
 }
 
+/// What the fit leaves of some trials when its numbers are those of the others.
+double errorAt(const FitProblem& problem, const Trials& trials, const Fit& fit, int iterations) {
+  const Trials others = allBut(problem, trials);
+  const Fit ofOthers = fitModel(only(problem, others), fit.model, only(problem, fit.shifts, others), {iterations});
+  return residualsOf(only(problem, trials), ofOthers.model, only(problem, fit.shifts, trials)).squaredNorm();
+}
+
 }  // namespace
 
 bool holdsAtOtherSettings(const FitProblem& problem, const Fit& without, const Fit& with, int iterations) {
@@ -30,14 +37,8 @@ bool holdsAtOtherSettings(const FitProblem& problem, const Fit& without, const F
   if (bySettings.size() < 2) return true;
   double before = 0, after = 0;
   for (const auto& [settings, trials] : bySettings) {
-    const Trials others = allBut(problem, trials);
-    const FitProblem fitted = only(problem, others), predicted = only(problem, trials);
-    const auto errorOf = [&](const Fit& fit) {
-      const Fit ofOthers = fitModel(fitted, fit.model, only(problem, fit.shifts, others), {iterations});
-      return residualsOf(predicted, ofOthers.model, only(problem, fit.shifts, trials)).squaredNorm();
-    };
-    before += errorOf(without);
-    after += errorOf(with);
+    before += errorAt(problem, trials, without, iterations);
+    after += errorAt(problem, trials, with, iterations);
   }
   return after < before;
 }

@@ -9,6 +9,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/model_comparison.h"
+#include "core/gap/search/siblings.h"
 
 namespace btr {
 namespace {
@@ -155,7 +156,7 @@ bool takeApart(const FitService& service, Selection& selection, const Scored& ca
           added.push_back(candidate);
         }
     if (added.size() < 2 || parts.parameters.size() >= whole.parameters.size() ||
-        static_cast<int>(parts.effects.size()) > service.options().maximumEffects) {
+        static_cast<int>(findingsIn(problem.library, parts.effects)) > service.options().maximumEffects) {
       ++i;
       continue;
     }

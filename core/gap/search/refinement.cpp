@@ -10,6 +10,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/score.h"
 #include "core/gap/search/screening/candidates.h"
+#include "core/gap/search/siblings.h"
 
 namespace btr {
 namespace {
@@ -74,38 +75,54 @@ bool isBetter(const Scored& refined, const Scored& plain, const SearchThresholds
          plain.mean() - refined.mean() >= limits.confirmation.leastShareOfExcess * excessOf(plain);
 }
 
+/// Refines effect `i`, where that does better. Whether it did.
+bool refine(const FitService& service, Confirmer& confirmer, Selection& selection, std::size_t i) {
+  std::vector<Refined> refinements = refinementsOf(service, selection.final.fit.model, i);
+  std::vector<Fit> fits;
+  std::vector<Refined> made;
+  for (Refined& refined : refinements)
+    if (const auto fit = fitted(service, refined, selection.final.fit)) {
+      fits.push_back(*fit);
+      made.push_back(std::move(refined));
+    }
+  const auto scored = service.tryScores(fits, stage, 0.8, 0.8);
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < scored.size(); ++k)
+    if (scored[k] && isBetter(*scored[k], selection.final, service.thresholds()) &&
+        (!best || scored[k]->mean() < scored[*best]->mean()))
+      best = k;
+  if (!best) return false;
+  const PlacedEffect own = selection.final.fit.model.effects[i];
+  const PairedTest comparison = compare(selection.final.blocks, scored[*best]->blocks);
+  const Scored better = confirmer.converged(*scored[*best], stage, 0.8);
+  const Refined& refined = made[*best];
+  if (!refined.isSimplerForm()) {
+    selection.take(better, own.text() + ", refined");
+    return true;
+  }
+  const std::string text = refined.candidate.text();
+  selection.remember(accepted(refined.candidate, service.problem(), better.fit.model, refined.effect, comparison,
+                              "simpler than " + own.text() + ", and better in detail"));
+  conclude(selection.attempts, own.text(), false, text + " does better in detail");
+  selection.take(better, own.text() + " → " + text);
+  return true;
+}
+
 }  // namespace
 
-void refineLaws(FitService& service, Confirmer& confirmer, Selection& selection) {
-  for (std::size_t i = selection.final.fit.model.effects.size(); i-- > 0;) {
-    std::vector<Refined> refinements = refinementsOf(service, selection.final.fit.model, i);
-    std::vector<Fit> fits;
-    std::vector<Refined> made;
-    for (Refined& refined : refinements)
-      if (const auto fit = fitted(service, refined, selection.final.fit)) {
-        fits.push_back(*fit);
-        made.push_back(std::move(refined));
-      }
-    const auto scored = service.tryScores(fits, stage, 0.8, 0.8);
-    std::optional<std::size_t> best;
-    for (std::size_t k = 0; k < scored.size(); ++k)
-      if (scored[k] && isBetter(*scored[k], selection.final, service.thresholds()) &&
-          (!best || scored[k]->mean() < scored[*best]->mean()))
-        best = k;
-    if (!best) continue;
-    const PlacedEffect own = selection.final.fit.model.effects[i];
-    const PairedTest comparison = compare(selection.final.blocks, scored[*best]->blocks);
-    const Scored better = confirmer.converged(*scored[*best], stage, 0.8);
-    const Refined& refined = made[*best];
-    if (!refined.isSimplerForm()) {
-      selection.take(better, own.text() + ", refined");
-      continue;
-    }
-    const std::string text = refined.candidate.text();
-    selection.remember(accepted(refined.candidate, service.problem(), better.fit.model, refined.effect, comparison,
-                                "simpler than " + own.text() + ", and better in detail"));
-    conclude(selection.attempts, own.text(), false, text + " does better in detail");
-    selection.take(better, own.text() + " → " + text);
+void refineLaws(const FitService& service, Confirmer& confirmer, Selection& selection) {
+  const EffectLibrary& library = service.problem().library;
+  const std::vector<PlacedEffect> before = selection.final.fit.model.effects;
+  // What takes an effect's place comes last: those that are still to be refined keep theirs.
+  const auto placeOf = [&](const PlacedEffect& effect) {
+    const auto& now = selection.final.fit.model.effects;
+    return static_cast<std::size_t>(std::ranges::find(now, effect.text(), &PlacedEffect::text) - now.begin());
+  };
+  for (std::size_t i = before.size(); i-- > 0;) {
+    if (isSibling(library, before, i) || !refine(service, confirmer, selection, placeOf(before[i]))) continue;
+    // Details that one joint does not show are not looked for at the others.
+    for (const std::size_t k : siblingsOf(library, before, i))
+      refine(service, confirmer, selection, placeOf(before[k]));
   }
 }
 

@@ -22,6 +22,7 @@
 #include "core/gap/search/screening/candidate_search.h"
 #include "core/gap/search/screening/pair_search.h"
 #include "core/gap/search/selection.h"
+#include "core/gap/search/siblings.h"
 
 namespace btr {
 namespace {
@@ -40,9 +41,10 @@ class StructureSearch {
 
  private:
   int most() const { return service_.options().maximumEffects; }
-  bool hasRoomFor(std::size_t effects) const {
-    return static_cast<int>(selection_.final.fit.model.effects.size() + effects) <= most();
-  }
+  std::size_t findings() const { return findingsIn(service_.problem().library, selection_.final.fit.model.effects); }
+  bool hasRoomFor(std::size_t effects) const { return static_cast<int>(findings() + effects) <= most(); }
+  /// What the last `effects` of the selected model are at other joints.
+  void spread(std::size_t effects);
   /// The simulator without effects: where the search begins.
   void beginFrom(const Calibration& calibration);
   /// No more than noise, the integration of either side, and `ofLaws` [noise floors²].
@@ -130,6 +132,12 @@ bool StructureSearch::isNothingLeft(double ofLaws) const {
   return selection_.final.mean() < nothing + ofLaws + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit));
 }
 
+void StructureSearch::spread(std::size_t effects) {
+  const std::size_t first = selection_.final.fit.model.effects.size() - effects;
+  for (std::size_t i = first; i < first + effects; ++i)
+    if (!isNothingLeft(0)) addSiblings(service_, confirmer_, selection_, i);
+}
+
 void StructureSearch::refine() {
   if (!isNothingLeft(0)) refineLaws(service_, confirmer_, selection_);
 }
@@ -174,6 +182,7 @@ void StructureSearch::addEffects(int stage) {
         with = converged();
       }
       selection_.take(with, "+ " + name);
+      spread(1);
       refine();
       continue;
     }
@@ -181,6 +190,7 @@ void StructureSearch::addEffects(int stage) {
         hasRoomFor(2) && excessOf(selection_.final) > limits.lastChanceExcess && pairs_.promisesAPair(tried);
     if (const auto pair = mayBeTwo ? pairs_.find(selection_.final, tried) : std::nullopt) {
       PairSearch::accept(selection_, *pair, "+ ");
+      spread(2);
       refine();
       choice.reset();
       ++stage;
@@ -213,7 +223,7 @@ std::vector<Found> StructureSearch::findRivals() {
     if (round == service_.thresholds().rivals.rounds || after == before || !hasRoomFor(1) ||
         excessOf(selection_.final) < service_.thresholds().screening.doubtfulExcess)
       return std::move(rivals.effects);
-    addEffects(static_cast<int>(after.size()));
+    addEffects(static_cast<int>(findings()));
     dropRedundant(service_, selection_, calibration_.calibrated);
     if (namesNow() == after) return std::move(rivals.effects);
   }

@@ -81,7 +81,7 @@ TEST(Screener, PromisesMostOfWhatIsMissing) {
   Parts parts(dryFriction, considering({"command_delay", "coulomb_friction", "joint_spring"}));
   const Screening screening =
       Screener(parts.service)
-          .screenBeside({parts.calibration.base.fit}, nullptr, parts.service.thresholds().screening, "", 0, 1);
+          .screenBeside({parts.calibration.base.fit}, "", nullptr, parts.service.thresholds().screening, "", 0, 1);
   ASSERT_FALSE(screening.tried.empty());
   EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
   EXPECT_EQ(screening.tried[0].attempt.rank, 1);
@@ -94,7 +94,7 @@ TEST(Screener, InAShortRaceFewAreScreenedInFullAndWhatIsMissingIsAmongThoseToFit
   const SearchThresholds& limits = parts.service.thresholds();
   const Screening screening =
       Screener(parts.service)
-          .screenBeside({parts.calibration.base.fit}, nullptr, limits.shortRace.of(limits.screening), "", 0, 1);
+          .screenBeside({parts.calibration.base.fit}, "", nullptr, limits.shortRace.of(limits.screening), "", 0, 1);
   ASSERT_GT(screening.tried.size(), 2 * limits.shortRace.screened) << "all effects were looked at";
   // Friction by direction, which contains it, may promise a little more.
   const auto missing = std::ranges::find(screening.tried, std::string("coulomb_friction at rig.hinge"),

@@ -106,6 +106,50 @@ void delay(Recording& recording) {
 }
 
 /// One bus feeds all servos: what all joints share is one effect with one number.
+/// One finding, though nine numbers: at most one is asked for.
+TEST(StrangeArm, FrictionAtEveryJointIsOneFinding) {
+  strange::Arm arm;
+  arm.friction = {0.8, 0.5, 0.15};
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "command_delay"};
+  options.maximumEffects = 1;
+  const GapReport report = analyse(problemOf(arm, 2), library(), options);
+  EXPECT_THAT(namedIn(report),
+              testing::UnorderedElementsAre("coulomb_friction at arm.joint1", "coulomb_friction at arm.joint2",
+                                            "coulomb_friction at arm.joint3"))
+      << toPlainText(report);
+  for (const GapReport::Effect& each : report.tried)
+    if (each.accepted)
+      for (const GapReport::Number& number : each.parameters)
+        if (number.name == "torque_nm") {
+          const double truth = arm.friction[each.at.back() - '1'];
+          EXPECT_NEAR(number.value, truth, 0.05 * truth) << each.at;
+        }
+}
+
+TEST(StrangeArm, DryAndViscousFrictionAtEveryJointAreTwoFindings) {
+  strange::Arm arm;
+  arm.friction = {0.8, 0.5, 0.15};
+  arm.viscous = {0.6, 0.4, 0.1};
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "command_delay"};
+  const GapReport report = analyse(problemOf(arm, 2), library(), options);
+  EXPECT_EQ(namedIn(report).size(), 6U) << toPlainText(report);
+}
+
+/// What one joint has another one need not have.
+TEST(StrangeArm, FrictionOfOneKindAtOneJointAndOfAnotherAtTheNextIsNotSpread) {
+  strange::Arm arm;
+  arm.friction[1] = 0.6;
+  arm.viscous[0] = 0.9;
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "command_delay"};
+  const GapReport report = analyse(problemOf(arm, 2), library(), options);
+  EXPECT_THAT(namedIn(report),
+              testing::UnorderedElementsAre("coulomb_friction at arm.joint2", "viscous_friction at arm.joint1"))
+      << toPlainText(report);
+}
+
 TEST(StrangeArm, ADelayThatAllJointsShareIsOneEffect) {
   strange::Arm arm;
   arm.friction[1] = 0.6;

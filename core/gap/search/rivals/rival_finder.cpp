@@ -9,6 +9,7 @@
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/rivals/shown_sizes.h"
 #include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/siblings.h"
 
 namespace btr {
 namespace {
@@ -188,6 +189,10 @@ Found RivalFinder::foundAt(std::size_t i, const Offered& offered, Selection& sel
   return found;
 }
 
+std::string RivalFinder::whereOthersAreFor(std::size_t i, const FitModel& model) const {
+  return isSibling(service_.problem().library, model.effects, i) ? model.effects[i].at : "";
+}
+
 RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) {
   const FitModel& model = final.fit.model;
   if (model.effects.size() == 1) return {calibrated_, first_};
@@ -204,6 +209,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
                                     .from = 0.88,
                                     .to = 0.95,
                                     .hopeless = inReach * final.fit.cost,
+                                    .onlyAt = whereOthersAreFor(i, model),
                                     .shortRace = isShort});
   return {std::move(round.without), std::move(round.tried)};
 }
@@ -217,7 +223,8 @@ RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final)
   Offered& offered = place->second;
   if (isNew) {
     offered = inPlaceOf(i, final);
-    for (const HandedOver& arrived : handover_.handOver(i, final)) add(arrived, offered.others);
+    for (const HandedOver& arrived : handover_.handOver(i, final, whereOthersAreFor(i, final.fit.model)))
+      add(arrived, offered.others);
   }
   return offered;
 }
@@ -229,7 +236,9 @@ RivalSearch RivalFinder::find(Selection selection) {
   for (std::size_t left = selection.final.fit.model.effects.size(); left > 0;) {
     Offered& offered = offeredTo(left - 1, selection.final);
     compareAtOneStep(selection, offered.others);
+    const PlacedEffect asked = selection.final.fit.model.effects[left - 1];
     if (replaced < service_.thresholds().rivals.replaced && replace(left - 1, offered.others, selection)) {
+      replaceSiblings(service_, selection, asked);
       confirmer_.settle(selection, true, "rivals", 0.95);
       ++replaced;
       left = selection.final.fit.model.effects.size();

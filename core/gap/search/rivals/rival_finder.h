@@ -47,6 +47,8 @@ class RivalFinder {
   /// What was offered the place of effect `i`: looked for once, and offered again to whatever has taken the place
   /// since.
   Offered& offeredTo(std::size_t i, const Scored& final);
+  /// At its own joint alone where the same effect stands at another one, which was asked about all places; else "".
+  std::string whereOthersAreFor(std::size_t i, const FitModel& model) const;
   Offered inPlaceOf(std::size_t i, const Scored& final);
   void add(const HandedOver& arrived, std::vector<TriedCandidate>& others) const;
   /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of

@@ -32,13 +32,15 @@ struct RivalHandover::Way {
 
 /// Where the ways begin: what does best in the place of the part of effect `i` that is taken away first.
 std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own,
-                                                        bool muchLeft) const {
+                                                        const std::string& onlyAt, bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const std::size_t handedTo = muchLeft ? race.handedTo : limits.handedTo;
   const FitProblem& problem = service_.problem();
   std::vector<EffectCandidate> candidates = service_.candidatesBeside(base.model);
-  std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(problem.library, c, own); });
+  std::erase_if(candidates, [&](const EffectCandidate& c) {
+    return isRicher(problem.library, c, own) || (!onlyAt.empty() && c.at != onlyAt);
+  });
   // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
   // smaller friction but another motion.
   const auto isSimpler = [&](const EffectCandidate& candidate) {
@@ -118,7 +120,7 @@ void RivalHandover::keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCand
   offered = std::move(ofLeft);
 }
 
-std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& final) {
+std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& final, const std::string& onlyAt) {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const auto& kept = limits.kept;
   const FitProblem& problem = service_.problem();
@@ -139,7 +141,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
   const double onTheWay = finalCost * (muchLeft ? race.valley : limits.valley);
   const double atItsEnd = finalCost * (muchLeft ? race.valleyEnd : limits.valleyEnd);
 
-  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, muchLeft);
+  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, onlyAt, muchLeft);
   for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {
     // Straight on from the last two steps.
     const double on = k == 0 ? 0 : (kept[k - 1] - kept[k]) / ((k == 1 ? 1 : kept[k - 2]) - kept[k - 1]);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/gap/fit/fit.h"
@@ -25,12 +26,13 @@ class RivalHandover {
   explicit RivalHandover(FitService& service) : service_(service) {}
 
   /// What the recordings may not distinguish from effect `i` of a model, or find better: its size is taken away in
-  /// steps, and at each what is offered its place is fitted on.
-  std::vector<HandedOver> handOver(std::size_t i, const Scored& final);
+  /// steps, and at each what is offered its place is fitted on. `onlyAt`: see CandidateSearch::Request.
+  std::vector<HandedOver> handOver(std::size_t i, const Scored& final, const std::string& onlyAt);
 
  private:
   struct Way;
-  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own, bool muchLeft) const;
+  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own, const std::string& onlyAt,
+                            bool muchLeft) const;
   FitModel simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate, bool muchLeft) const;
 
   void keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCandidate>& offered, double most) const;

@@ -30,7 +30,8 @@ Round CandidateSearch::search(const Request& request) {
   const Linearised* known = service_.step_s() == judged_s ? request.known : nullptr;
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const SearchThresholds::Screening ofThese = request.shortRace ? race.of(limits) : limits;
-  Screening screening = screener_.screenBeside(request.models, known, ofThese, request.stage, from, from + part);
+  Screening screening =
+      screener_.screenBeside(request.models, request.onlyAt, known, ofThese, request.stage, from, from + part);
   screener_.fitPromising(screening, request.toFit, !request.shortRace, request.stage, from + part, from + 2 * part);
   std::vector<TriedCandidate>& tried = screening.tried;
   const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && race.isRun(service_.leftBy(tried[0].fit));

@@ -36,6 +36,7 @@ class CandidateSearch {
     double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
     bool beyondBest = false;  ///< where the best leaves much, others that promise about as much are fitted, too
+    std::string onlyAt{};     ///< the one place where candidates may be; empty: anywhere
     bool shortRace = false;   ///< few are screened in full, none is begun again in windows
   };
   /// Where something passes that needs a finer step, that step stays.

@@ -12,6 +12,7 @@
 #include "core/gap/fit/torques_lead_away.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/followed_rests.h"
 #include "core/gap/replay/trial_scenes.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
@@ -152,6 +153,21 @@ void refuseWithoutNumbers(const std::vector<FitTrial>& trials) {
                        "at least one compared column with numbers");
 }
 
+/// True if torques of joints that rest are not compared (followed_rests.h).
+bool leaveRestsOut(FitProblem& problem) {
+  std::set<std::string> channels;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    FitTrial& trial = problem.trials[t];
+    for (const std::size_t column : leaveOutRests(trial.recording, trial.binding, problem.sceneOf(problem.given, t)))
+      channels.insert(trial.recording.channels[column]);
+  }
+  if (channels.empty()) return false;
+  std::string list;
+  for (const std::string& channel : channels) list += (list.empty() ? "" : ", ") + channel;
+  problem.notes.push_back(list + ": compared while the joint turns, as at rest dry friction carries whatever is given");
+  return true;
+}
+
 }  // namespace
 
 double priorCost(const std::vector<Nuisance>& nuisances, const std::vector<double>& shift) {
@@ -249,7 +265,8 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   // enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start, and 5 to
   // 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
   if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
-  if (prepareFilteredMotions(ready, window_s == 0)) shareNoiseFloors(ready.trials, ready.notes);
+  const bool filtered = prepareFilteredMotions(ready, window_s == 0), rested = leaveRestsOut(ready);
+  if (filtered || rested) shareNoiseFloors(ready.trials, ready.notes);
   cutSegments(ready, window_s);
   addInputNoise(ready);
   sayIfTorquesLeadAway(ready);

@@ -329,6 +329,8 @@ struct SearchThresholds {
     double keepsSize = 3;        ///< a named effect's size may change by this factor with the law beside it [hand]
     double standsAlone = 0.7;    ///< error of a law alone over that of the names: names fall from here on [prototype]
     double asWell = 1.1;         ///< and over that of names and law together [hand]
+    double asNamed = 0.99;       ///< of what a curve takes in a name's place: a name that takes this is no other law
+                                 ///< [case: dry friction of an arm, once more as a curve over position]
   };
 
   /// Trials that one simulator does not fit together with the others (disagreement.h).

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/sim/rest.h"
 #include "core/sim/world/world_impl.h"
 
 namespace btr {
@@ -135,12 +136,9 @@ namespace {
 /// faster than that it rests, and its drive need not give what dry friction can carry: friction that opposed every
 /// noise would be a torque that nobody recorded. 0: it moves.
 double restingRate(const DriveRow& motion, const RobotJoint& joint) {
-  // A hundredth of a radian within a second or so; where friction is measured, "at rest" is said of less than 0.01 to
-  // 0.05 rad/s [hand].
-  constexpr double stands_rad_s = 0.02, stands_m_s = 2e-5;
   const double rate = motion.d > 0 ? motion.p / motion.d : 0;
   // Before the step as well: a joint that only turns round does not rest.
-  return std::max(std::abs(rate), std::abs(joint.rate)) < (joint.slides ? stands_m_s : stands_rad_s) ? rate : 0;
+  return std::max(std::abs(rate), std::abs(joint.rate)) < restsBelow(joint.slides) ? rate : 0;
 }
 
 }  // namespace

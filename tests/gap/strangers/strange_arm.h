@@ -44,7 +44,7 @@ inline std::string armUrdf() {
 
 struct ArmTrial {
   std::vector<double> time;
-  std::array<std::vector<double>, 3> command, position;
+  std::array<std::vector<double>, 3> command, position, torque;
 };
 
 class SwungArm {
@@ -80,23 +80,32 @@ class SwungArm {
     };
     const double h = arm_.euler_s > 0 ? arm_.euler_s : 1e-4;
     const long per = std::lround(sample / h), rows = std::lround(duration / sample);
-    Three q = command(0), rate = Three::Zero();
+    Three q = command(0), rate = Three::Zero(), before = Three::Zero();
     ArmTrial trial;
     for (long row = 0; row <= rows; ++row) {
       const double now = static_cast<double>(row) * sample;
       const Three held = command(now);
       trial.time.push_back(now);
       for (std::size_t i = 0; i < 3; ++i) {
-        trial.command[i].push_back(held[static_cast<Eigen::Index>(i)]);
-        trial.position[i].push_back(q[static_cast<Eigen::Index>(i)] + normal(random));
+        const auto joint = static_cast<Eigen::Index>(i);
+        trial.command[i].push_back(held[joint]);
+        trial.position[i].push_back(q[joint] + normal(random));
       }
-      for (long k = 0; k < per; ++k)
+      Three given = Three::Zero();
+      for (long k = 0; k < per; ++k) {
+        given += servoTorque(q, rate, held) / static_cast<double>(per);
         if (arm_.euler_s > 0) {
           rate += h * change(q, rate, held);
           q += h * rate;
         } else {
           rungeKutta(q, rate, held, h);
         }
+      }
+      // What was given around the row: half of it before, half after.
+      if (row == 0) before = given;
+      for (std::size_t i = 0; i < 3; ++i)
+        trial.torque[i].push_back((before[static_cast<Eigen::Index>(i)] + given[static_cast<Eigen::Index>(i)]) / 2);
+      before = given;
     }
     return trial;
   }
@@ -115,14 +124,17 @@ class SwungArm {
     rate += h / 6 * (a + 2 * b + 2 * c + e);
   }
 
+  Three servoTorque(const Three& q, const Three& rate, const Three& held) const {
+    return (arm_.p.cwiseProduct(held - q) - arm_.d.cwiseProduct(rate))
+        .cwiseMin(arm_.maxTorque)
+        .cwiseMax(-arm_.maxTorque);
+  }
+
   Three change(const Three& q, const Three& rate, const Three& held) const {
     const Three angle(q[0], q[0] + q[1], q[0] + q[1] + q[2]);
     const Three spin(rate[0], rate[0] + rate[1], rate[0] + rate[1] + rate[2]);
-    Three torque;
-    for (int i = 0; i < 3; ++i)
-      torque[i] =
-          std::clamp(arm_.p[i] * (held[i] - q[i]) - arm_.d[i] * rate[i], -arm_.maxTorque[i], arm_.maxTorque[i]) -
-          arm_.friction[i] * std::tanh(rate[i] / 0.002) - arm_.viscous[i] * rate[i];
+    Three torque = servoTorque(q, rate, held);
+    for (int i = 0; i < 3; ++i) torque[i] -= arm_.friction[i] * std::tanh(rate[i] / 0.002) + arm_.viscous[i] * rate[i];
     Eigen::Matrix3d mass;
     Three right(torque[0] - torque[1], torque[1] - torque[2], torque[2]);
     for (int i = 0; i < 3; ++i) {

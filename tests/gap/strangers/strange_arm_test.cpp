@@ -7,6 +7,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/segments.h"
+#include "core/gap/recordings/resample.h"
 #include "core/gap/report/report_plain.h"
 #include "core/gap/search/analysis.h"
 #include "core/gap/search/gap_report.h"
@@ -135,6 +136,51 @@ TEST(StrangeArm, DryAndViscousFrictionAtEveryJointAreTwoFindings) {
   options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "command_delay"};
   const GapReport report = analyse(problemOf(arm, 2), library(), options);
   EXPECT_EQ(namedIn(report).size(), 6U) << toPlainText(report);
+}
+
+/// Friction of an arm that sticks where it turns, by torques and motions as arms log them: what the drives give while
+/// joints rest is anything that friction carries.
+TEST(StrangeArm, FrictionOfJointsThatStickAsTheyTurnIsThatOfTheirMotion) {
+  strange::Arm arm;
+  arm.friction = {1.6, 1, 0.3};
+  GapProblem problem;
+  const TemporaryFolder folder;
+  folder.write("arm.urdf", strange::armUrdf());
+  problem.scene =
+      sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008, "robots": [
+    {"name": "arm", "model": "arm.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
+      "joint1": {"drive": "motion"}, "joint2": {"drive": "motion"}, "joint3": {"drive": "motion"}}}]})",
+                    "scene", folder.file("."));
+  problem.models = loadModels(problem.scene);
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise(0, 0.01);
+  for (int trial = 0; trial < 3; ++trial) {
+    strange::ArmTrial made = strange::SwungArm(arm).run(8, 0.008, 1e-5, random);
+    Recording recording;
+    recording.source = "trial_" + std::to_string(trial) + ".csv";
+    recording.channels = {"time_s"};
+    recording.columns = {made.time};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string joint = "arm.joint" + std::to_string(i + 1);
+      for (double& torque : made.torque[i]) torque += noise(random);
+      recording.channels.insert(recording.channels.end(), {joint + ".position_rad", joint + ".torque_nm"});
+      recording.columns.insert(recording.columns.end(), {made.position[i], made.torque[i]});
+    }
+    problem.recordings.push_back(resampled(recording, {0, 15}));
+  }
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "payload"};
+  const GapReport report = analyse(std::move(problem), library(), options);
+  EXPECT_THAT(namedIn(report),
+              testing::UnorderedElementsAre("coulomb_friction at arm.joint1", "coulomb_friction at arm.joint2",
+                                            "coulomb_friction at arm.joint3"))
+      << toPlainText(report);
+  for (const GapReport::Effect& each : report.tried)
+    if (each.accepted) {
+      const double truth = arm.friction[each.at.back() - '1'];
+      EXPECT_NEAR(each.parameters.at(0).value, truth, 0.03 * truth) << each.at;
+    }
+  EXPECT_THAT(report.notes, testing::Contains(testing::HasSubstr("compared while the joint turns")));
 }
 
 /// What one joint has another one need not have.

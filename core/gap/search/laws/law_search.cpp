@@ -186,8 +186,14 @@ void takeBack(const FitProblem& problem, SearchResult& found, std::size_t effect
 
 constexpr const char* aCurveDoes = "a curve that was learned does as well without it";
 
+/// Whether a name takes all but a small part of what a curve in its place does: that is the name once more, drawn by
+/// knots. Mean squared errors with neither, with the name, with the curve.
+bool isTheNameItself(double neither, double named, double curve, const SearchThresholds::Law& limits) {
+  return neither - named > limits.asNamed * (neither - curve);
+}
+
 /// Effects that are not missed with the law beside them, or only as another size, fall; the least missed one first. One
-/// without which there is no law stays, and the law goes.
+/// without which there is no law, or that the law would only repeat, stays, and the law goes.
 void dropWhatTheLawReplaces(const FitProblem& problem, SearchResult& found, LawBesideNames& result,
                             const SearchThresholds& thresholds) {
   const SearchThresholds::Law& limits = thresholds.law;
@@ -209,7 +215,9 @@ void dropWhatTheLawReplaces(const FitProblem& problem, SearchResult& found, LawB
     const FitModel model = found.final.fit.model.without(*fallen);
     takeBack(problem, found, *fallen, fitAndScore(problem, model, found.final.fit.shifts, limits.iterations),
              aCurveDoes);
+    const double neither = found.final.mean(), named = before.final.mean();
     result.law = learnLaw(problem, found.final, found.finalLinear, problem.jobs, thresholds);
+    if (result.law && isTheNameItself(neither, named, result.law->scored.mean(), limits)) result.law.reset();
     if (result.law)
       result.fell.push_back(before.effects[*fallen].effect.text());
     else

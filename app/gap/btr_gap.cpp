@@ -165,7 +165,9 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
       ->transform(wholeNumber(1, 256));
   analyse->add_option("--seed", request->options.seed, "of the fits' starting points")->transform(seedNumber());
   analyse->add_option("--effects", request->options.effects, "consider only these")->take_all();
-  analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added; at several joints of a robot the same effect counts once")
+  analyse
+      ->add_option("--maximum-effects", request->options.maximumEffects,
+                   "at most so many are added; at several joints of a robot the same effect counts once")
       ->transform(wholeNumber(0, 8));
   analyse->add_flag("--as-recorded", request->options.asRecorded,
                     "go on although a column is certainly not what its name says");

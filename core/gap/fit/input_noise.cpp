@@ -71,6 +71,23 @@ void addSpread(const FitProblem& problem, const Segment& segment, const Recordin
   }
 }
 
+/// Channels of whose floors that noise is most.
+struct MostlyNoise {
+  std::string channels, spreads, floors;
+
+  void add(const std::string& channel, double spread, double floor) {
+    const std::string unit = " " + unitOfChannel(channel), next = channels.empty() ? "" : ", ";
+    channels += next + channel;
+    spreads += next + digits(spread, 2) + unit;
+    floors += next + digits(floor, 2);
+  }
+  std::string text(const std::string& inputs) const {
+    const bool several = channels.find(',') != std::string::npos;
+    return channels + ": the noise of the recorded " + inputs + ", adds " + spreads +
+           (several ? " to floors of " : " to a floor of ") + floors;
+  }
+};
+
 /// The lowest cutoff that takes nothing but noise from the motions, 0 if each takes more, or none is needed.
 double cutoffForNoiseAlone(const FitProblem& problem) {
   constexpr double noiseAlone = 1.15;  // of what the positions' noise is worth
@@ -153,6 +170,7 @@ void addInputNoise(FitProblem& problem) {
   for (const Segment& segment : problem.segments) addSpread(problem, segment, noisy[segment.trial], spreads);
 
   std::set<std::string> mostly;
+  std::map<bool, MostlyNoise> told;  // by whether torques are compared
   for (FitTrial& trial : problem.trials)
     for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
       if (!hasInputNoise(trial, channel)) continue;
@@ -162,15 +180,15 @@ void addInputNoise(FitProblem& problem) {
       const double ofInputs = spreads[name].rms();
       if (ofInputs > most * trial.noiseFloor[channel] && mostly.insert(name).second) {
         problem.noisyTorques = problem.noisyTorques || !isTorque;
-        problem.notes.push_back(
-            name + ": the noise of the recorded " +
-            (isTorque ? "positions, which the motion is made of" : "torques, which drive the joints") + ", adds " +
-            digits(ofInputs, 2) + " " + unitOfChannel(name) + " to a floor of " + digits(trial.noiseFloor[channel], 2) +
-            (isTorque ? remedy(problem) : remedyUnderTorques));
+        told[isTorque].add(name, ofInputs, trial.noiseFloor[channel]);
       }
       trial.noiseFloor[channel] = std::hypot(trial.noiseFloor[channel], ofInputs);
       for (double& floor : trial.sampleFloor[channel]) floor = std::hypot(floor, ofInputs);
     }
+  if (!told[true].channels.empty())
+    problem.notes.push_back(told[true].text("positions, which the motion is made of") + remedy(problem));
+  if (!told[false].channels.empty())
+    problem.notes.push_back(told[false].text("torques, which drive the joints") + remedyUnderTorques);
 }
 
 }  // namespace btr

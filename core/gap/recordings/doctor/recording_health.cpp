@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
@@ -83,6 +84,15 @@ bool staysBehind(const std::vector<double>& time, std::size_t row, double period
   return median(std::move(after)) - median(std::move(before)) > period / 2;
 }
 
+/// One more name behind a key, in the order in which they come.
+void addTo(std::vector<std::pair<std::string, std::string>>& lists, const std::string& key, const std::string& name) {
+  const auto known = std::ranges::find(lists, key, &std::pair<std::string, std::string>::first);
+  if (known == lists.end())
+    lists.emplace_back(key, name);
+  else
+    known->second += ", " + name;
+}
+
 }  // namespace
 
 std::size_t everyNthRow(const std::vector<double>& values) {
@@ -132,6 +142,7 @@ RecordingHealth examine(const Recording& recording) {
   }
 
   // Channels.
+  std::vector<std::pair<std::string, std::string>> counts;  // how large, and which channels have them
   for (std::size_t column = 1; column < recording.channels.size(); ++column) {
     const std::string& name = recording.channels[column];
     if (!parseChannel(name)) continue;
@@ -152,10 +163,13 @@ RecordingHealth examine(const Recording& recording) {
     Extent extent;
     extent.add(values);
     if (channel.quantisation > 0 &&
-        !(isInputChannel(name) && extent.high - extent.low < leastSteps * channel.quantisation))
-      health.findings.push_back(name + ": counts of " + digits(channel.quantisation, 4));
+        !(isInputChannel(name) && extent.high - extent.low < leastSteps * channel.quantisation)) {
+      const std::string unit = unitOfChannel(name);
+      addTo(counts, digits(channel.quantisation, 4) + (unit.empty() ? "" : " " + unit), name);
+    }
     health.channels.push_back(std::move(channel));
   }
+  for (const auto& [count, names] : counts) health.findings.push_back(names + ": counts of " + count);
   return health;
 }
 

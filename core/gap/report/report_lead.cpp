@@ -24,24 +24,17 @@ std::vector<std::size_t> acceptedOf(const GapReport& report) {
   return accepted;
 }
 
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
 std::string findingHeadline(const GapReport& report) {
   constexpr std::size_t mostNamed = 3;
-  const std::vector<std::size_t> accepted = acceptedOf(report);
+  const auto findings = findingsOf(report);
   const bool named = report.verdict == Verdict::missingPhysics || report.verdict == Verdict::partlyExplained;
-  if (!named || accepted.empty()) return headline(report.verdict);
+  if (!named || findings.empty()) return headline(report.verdict);
   std::vector<std::string> names;
-  for (const std::size_t i : accepted)
-    if (names.size() < mostNamed) names.push_back(placed(report.tried[i]));
-  if (accepted.size() > mostNamed) names.push_back(std::to_string(accepted.size() - mostNamed) + " more");
-  return capital(listed(names)) + (accepted.size() == 1 ? " was left out" : " were left out") +
+  for (const auto& finding : findings)
+    if (names.size() < mostNamed) names.push_back(inWords(finding));
+  if (findings.size() > mostNamed) names.push_back(std::to_string(findings.size() - mostNamed) + " more");
+  const bool one = findings.size() == 1 && findings[0].size() == 1;
+  return capital(listed(names)) + (one ? " was left out" : " were left out") +
          (report.verdict == Verdict::partlyExplained ? ", and something else is left" : "");
 }
 

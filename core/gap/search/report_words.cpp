@@ -1,5 +1,6 @@
 #include "core/gap/search/report_words.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/gap/search/gap_report.h"
@@ -12,6 +13,36 @@ std::string inWords(const std::string& effect, const std::string& at) {
   const std::string shared = everyJointOf("");
   return inWords(effect) + " at " +
          (at.ends_with(shared) ? "every joint of " + at.substr(0, at.size() - shared.size()) : at);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+std::vector<std::vector<const GapReport::Effect*>> findingsOf(const GapReport& report) {
+  const auto robotOf = [](const GapReport::Effect& effect) { return effect.at.substr(0, effect.at.find('.')); };
+  std::vector<std::vector<const GapReport::Effect*>> findings;
+  for (const GapReport::Effect& effect : report.tried) {
+    if (!effect.accepted) continue;
+    const auto same = std::ranges::find_if(findings, [&](const auto& finding) {
+      return finding[0]->effect == effect.effect && robotOf(*finding[0]) == robotOf(effect);
+    });
+    if (same == findings.end())
+      findings.push_back({&effect});
+    else
+      same->push_back(&effect);
+  }
+  return findings;
+}
+
+std::string inWords(const std::vector<const GapReport::Effect*>& finding) {
+  if (finding.size() == 1) return inWords(finding[0]->effect, finding[0]->at);
+  std::vector<std::string> places;
+  for (const GapReport::Effect* each : finding) places.push_back(each->at);
+  return inWords(finding[0]->effect) + " at " + listed(places);
 }
 
 std::string inWords(const GapReport::Rival& rival) {

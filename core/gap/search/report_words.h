@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/thresholds.h"
@@ -12,6 +13,13 @@ namespace btr {
 
 /// "dry friction at rig.hinge"; at a place that all joints share (rig.*), "… at every joint of rig".
 std::string inWords(const std::string& effect, const std::string& at);
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& words);
+/// The accepted effects of a report, by what was found: the same effect at several places of one robot (or of nothing
+/// else, at one place) stands together, in the order of the first.
+std::vector<std::vector<const GapReport::Effect*>> findingsOf(const GapReport& report);
+/// "dry friction at leg.hip, leg.knee and leg.ankle".
+std::string inWords(const std::vector<const GapReport::Effect*>& finding);
 /// The same, and what it is a rival together with.
 std::string inWords(const GapReport::Rival& rival);
 /// Whether rivals would put a number where its own interval does not hold it: more than twice as wide with them.

@@ -45,13 +45,20 @@ std::string textOf(const GapReport::Interval& interval) {
   return "[" + digits(interval.low, count) + " … " + digits(interval.high, count) + "]";
 }
 
-std::string effectText(const GapReport::Effect& effect) {
-  std::string text = inWords(effect.effect, effect.at);
+std::string numbersText(const GapReport::Effect& effect) {
   std::string numbers;
   for (const GapReport::Number& p : effect.parameters)
     numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) + (p.unit.empty() ? "" : " " + p.unit) +
                (p.ci95.high > p.ci95.low ? " " + textOf(p.ci95) : "") + (p.atBound ? " (at its bound)" : "");
-  return text + (numbers.empty() ? "" : " (" + numbers + ")");
+  return numbers.empty() ? "" : " (" + numbers + ")";
+}
+
+/// "dry friction at leg.hip (…), at leg.knee (…)".
+std::string findingText(const std::vector<const GapReport::Effect*>& finding) {
+  std::string text;
+  for (const GapReport::Effect* each : finding)
+    text += (text.empty() ? inWords(each->effect, each->at) : ", at " + each->at) + numbersText(*each);
+  return text;
 }
 
 /// A number of it is known to be another than where the effect does nothing. A joint that stands still tells that it is
@@ -278,10 +285,9 @@ struct Named {
 };
 Named namedIn(const GapReport& report) {
   Named named;
-  for (const GapReport::Effect& effect : report.tried) {
-    if (!effect.accepted) continue;
-    named.list += (named.list.empty() ? "" : "; ") + effectText(effect);
-    named.rivals += rivalsText(effect);
+  for (const auto& finding : findingsOf(report)) {
+    named.list += (named.list.empty() ? "" : "; ") + findingText(finding);
+    for (const GapReport::Effect* each : finding) named.rivals += rivalsText(*each);
   }
   return named;
 }
@@ -311,9 +317,7 @@ void judgePartly(GapReport& report, const Findings& e) {
 
 void judgeUnexplained(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::unexplained;
-  std::string partly;
-  for (const GapReport::Effect& effect : report.tried)
-    if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
+  const std::string partly = namedIn(report).list;
   const std::string first = "Named effects and other numbers explain " + ofGivenText(report) + ". ";
   if (e.named && e.leftBeyondStep() <= limits.unexplainedShare * e.excess)
     report.sentence = first + whereText(report) + errorText(e) + "Most of it, " + explainedText(report) +

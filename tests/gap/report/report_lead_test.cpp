@@ -102,6 +102,18 @@ TEST(ReportLead, NamesUpToThreeAndCountsTheRest) {
   EXPECT_THAT(leadOf(report).headline, Not(HasSubstr("left out")));
 }
 
+TEST(ReportLead, NamesAnEffectAtSeveralJointsOnce) {
+  GapReport report = sampleReport();
+  for (const char* joint : {"leg.ankle", "leg.hip"}) {
+    GapReport::Effect effect;
+    effect.effect = "backlash";
+    effect.at = joint;
+    effect.accepted = true;
+    report.tried.insert(report.tried.begin() + 1, effect);
+  }
+  EXPECT_EQ(leadOf(report).headline, "Backlash at leg.knee, leg.hip and leg.ankle were left out");
+}
+
 TEST(ReportLead, SaysWhatStandsInTheWay) {
   GapReport report = sampleReport();
   report.verdict = GapReport::Verdict::notExcited;

@@ -25,6 +25,8 @@ struct Believed {
   bool limit = true;
 };
 
+constexpr double length_s = 3;  ///< of a trial; of an analysis three, one of each excitation
+
 /// The rig as its owner describes it: a link, a rotor, a servo.
 GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int trials, const Believed& believed = {}) {
   const TemporaryFolder folder;
@@ -46,7 +48,7 @@ GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int t
   for (int trial = 0; trial < trials; ++trial) {
     const auto around = strange::excitation(trial, random);
     const auto command = [&](double time) { return plant.bias + around(time); };
-    const strange::Trial made = strange::Servo(plant).run(command, 4, 0.005, 5e-4, random);
+    const strange::Trial made = strange::Servo(plant).run(command, length_s, 0.005, 5e-4, random);
     Recording recording;
     recording.source = "trial_" + std::to_string(trial) + ".csv";
     recording.channels = {"time_s", "rig.hinge.command_rad", "rig.hinge.position_rad"};
@@ -60,7 +62,7 @@ GapReport reportOn(const strange::Plant& plant, std::uint64_t seed, const std::v
                    const Believed& believed = {}) {
   AnalysisOptions options;
   options.effects = among;
-  return analyse(strangeProblem(plant, seed, 4, believed), {test::host().effectFactory(), test::host().effects()},
+  return analyse(strangeProblem(plant, seed, 3, believed), {test::host().effectFactory(), test::host().effects()},
                  options);
 }
 
@@ -298,7 +300,7 @@ TEST(StrangeServo, WhoseSensorLagsIsSaidToThoughOthersPromiseMore) {
                      "gravity_compensation", "sensor_scale",    "rotor_inertia"};
   options.thresholds.screening.fitted = 4;
   options.maximumEffects = 1;
-  const GapProblem problem = strangeProblem(plant, 2, 4);
+  const GapProblem problem = strangeProblem(plant, 2, 3);
   const GapReport report = analyse(problem, {test::host().effectFactory(), test::host().effects()}, options);
   const Values found = sizesOf(report, "sensor_lag");
   ASSERT_TRUE(found.contains("time_constant_s")) << toPlainText(report);
@@ -400,14 +402,14 @@ TEST(StrangeServo, WhoseStampsJitterLacksNothingHoweverFastItMoves) {
   strange::Plant plant;
   plant.p = 5.6;
   plant.d = 0.33;
-  GapProblem problem = strangeProblem(plant, 15, 4);
+  GapProblem problem = strangeProblem(plant, 15, 3);
   std::mt19937_64 random(16);
   std::uniform_real_distribution<double> off(-0.0012, 0.0012);
   for (Recording& recording : problem.recordings)
     for (std::size_t row = 1; row < recording.rows(); ++row) recording.columns[0][row] += off(random);
   Recording fast = problem.recordings[0];
   const auto command = [](double t) { return t < 0.3 ? 0.0 : 1.5 * std::sin(12 * (t - 0.3)); };
-  const strange::Trial made = strange::Servo(plant).run(command, 4, 0.005, 5e-4, random);
+  const strange::Trial made = strange::Servo(plant).run(command, length_s, 0.005, 5e-4, random);
   fast.source = "fast.csv";
   fast.columns = {made.time, made.command, made.position};
   for (std::size_t row = 1; row < fast.rows(); ++row) fast.columns[0][row] += off(random);

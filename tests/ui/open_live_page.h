@@ -38,7 +38,7 @@ struct OpenPage {
           {"obstacles", {{{"name", "crate"}, {"mass_kg", 0.2}, {"position_m", {0.1, 0.35, 0.05}}}}}}},
         {"robots", {{"dog", {{"team", "blue"}, {"controller", {{"plugin", "walk"}}}}}}}};
     writeFile(file.toStdString(), game.dump());
-    page.resize(1400, 900);
+    page.resize(900, 600);  // without a graphics card most of the time goes into pixels
     page.show();
     page.open(file);
   }

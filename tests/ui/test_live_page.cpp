@@ -62,6 +62,7 @@ class TestLivePage : public QObject {
 
   void everyButtonIsReachedWithoutAMouse() {
     OpenPage open;
+    open.page.resize(1400, 600);
     QVERIFY(open.isThere());
     open.page.activateWindow();
     open.page.view().setFocus();

@@ -10,16 +10,19 @@ namespace {
 /// Turns OpenGL's bottom-up image round and averages blocks of `factor` × `factor` pixels.
 QImage toPicture(const osg::Image& source, QSize size, int factor) {
   QImage result(size, QImage::Format_RGB32);
+  const unsigned char* pixels = source.data();
+  const std::size_t row = source.getRowStepInBytes();
+  const unsigned area = factor * factor, half = area / 2;
   for (int y = 0; y < size.height(); ++y) {
     auto* out = reinterpret_cast<QRgb*>(result.scanLine(y));
+    const unsigned char* below = pixels + static_cast<std::size_t>(size.height() - 1 - y) * factor * row;
     for (int x = 0; x < size.width(); ++x) {
       unsigned sum[3] = {0, 0, 0};
       for (int dy = 0; dy < factor; ++dy) {
-        const unsigned char* in = source.data(x * factor, (size.height() - 1 - y) * factor + dy);
+        const unsigned char* in = below + dy * row + std::size_t(4) * x * factor;
         for (int dx = 0; dx < factor; ++dx, in += 4)
           for (int channel = 0; channel < 3; ++channel) sum[channel] += in[channel];
       }
-      const unsigned area = factor * factor, half = area / 2;
       out[x] = qRgb((sum[2] + half) / area, (sum[1] + half) / area, (sum[0] + half) / area);
     }
   }

@@ -24,8 +24,10 @@ double detent(double q) {
   return -0.3 * u * std::exp(0.5 - u * u / 2);
 }
 
-AnalysisOptions usualEffects() {
+/// So many of them at a time; each more is fitted beside every other, and takes as long again.
+AnalysisOptions usualEffects(int most = 1) {
   AnalysisOptions options;
+  options.maximumEffects = most;
   options.effects = {"coulomb_friction", "viscous_friction", "joint_spring",
                      "force_offset",     "torque_ripple",    "backlash"};
   options.designNext = false;
@@ -46,7 +48,7 @@ void expectLaw(const GapReport& report, const std::string& on, const std::string
 
 TEST(MeasuredLaw, OfADetent) {
   const GapReport report =
-      analyse(test::pendulumProblem([](double q, double, double) { return detent(q); }), library(), usualEffects());
+      analyse(test::pendulumProblem([](double q, double, double) { return detent(q); }), library(), usualEffects(2));
   expectLaw(report, "position", "detent");
   EXPECT_EQ(report.verdict, Verdict::unexplained) << report.sentence;
   const GapReport::LawCurve& curve = report.law.curves[0];
@@ -157,7 +159,7 @@ TEST(MeasuredLaw, IsNoneWhereNothingIsMissing) {
 
 TEST(MeasuredLaw, LeavesFrictionItsNameBesideADetent) {
   const auto both = [](double q, double rate, double) { return detent(q) - 0.08 * std::tanh(rate / 0.005); };
-  AnalysisOptions options = usualEffects();
+  AnalysisOptions options = usualEffects(3);
   options.effects = {"coulomb_friction", "viscous_friction"};
   const GapReport report = analyse(test::pendulumProblem(both, 3), library(), options);
   expectLaw(report, "position", "detent");

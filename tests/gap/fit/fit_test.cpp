@@ -21,7 +21,7 @@ namespace {
 
 /// With the scene's own step: a replay is long enough for the workers.
 FitProblem slowProblem(int jobs) {
-  const GapProblem given = recordedFrom({{{"robots.rig.servos.hinge.p", 7}}, {}});
+  const GapProblem given = recordedFrom({{{"robots.rig.servos.hinge.p", 7}}, {}}, 0.6, 0, library(), 0.0001, 4);
   FitProblem problem = makeFitProblem(given, given.recordings, library());
   problem.jobs = jobs;
   problem.scene.step_s = problem.givenStep_s;

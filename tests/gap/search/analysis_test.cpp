@@ -271,7 +271,7 @@ TEST(Analysis, WhatHoldsAJointMayBeAnythingThatIsLarge) {
   AnalysisOptions options;
   options.effects = {"coulomb_friction", "viscous_friction", "rotor_inertia", "command_delay", "force_offset"};
   const SimulatorSpec truth{{}, {{"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 900}}}}};
-  const GapReport report = analyse(recordedFrom(truth, 0.25), library(), options);
+  const GapReport report = analyse(recordedFrom(truth, 0.25, 0, library(), 0.0001, 4), library(), options);
   EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
   EXPECT_EQ(namesOf(report).size(), 1u) << toPlainText(report);
   // Not the largest rotor: a load of 2 N·m turns 200 kg·m² by 5 mrad in the first second, ten noise floors.

@@ -230,7 +230,7 @@ GapProblem cartOnASpring() {
     recording.columns.resize(3);
     State s{};
     double force = 0;
-    for (long i = 0; i < std::lround(8 / h); ++i) {
+    for (long i = 0; i < std::lround(5 / h); ++i) {
       const double t = static_cast<double>(i) * h;
       if (i % std::lround(row_s / h) == 0) {
         force = std::round(1000 * (400 * (0.15 * wanted(t) - s[0]) - 35 * s[1])) / 1000;

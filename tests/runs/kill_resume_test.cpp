@@ -25,8 +25,10 @@ class KilledRun : public testing::Test {
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("btr-kill-" + std::to_string(getpid()));
     fs::create_directories(folder_);
-    // The short experiment, smaller still: 3 × 4 generations of 8, three measurement stages, small adaptations.
+    // The short experiment, smaller still: 3 × 4 generations of 8, three measurement stages, small adaptations, kicks
+    // that are soon over.
     nlohmann::json spec = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/" + experiment_));
+    if (experiment_ == "kick-short.json") spec["controller"]["settings"].update({{"hold_s", 0}, {"return_s", 0.1}});
     if (experiment_ == "walk-short.json") {
       spec["controller"]["settings"]["duration_s"] = 1;
       spec["reality_learning"]["learner"]["settings"]["policies"] = 4;

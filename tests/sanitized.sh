@@ -27,10 +27,15 @@ sanitized() { if [ $# = 1 ]; then sanitized_window "$@"; else sanitized_part "$@
 export -f sanitized sanitized_part sanitized_window
 {
   echo "test_gap $analysis 0 1"
-  for part in 0 1 2 3; do echo "test_gap -$long $part 4"; done  # longer than all others together
+  # Longer than all others together: in parts that are not much longer than these.
+  for part in {0..7}; do echo "test_gap -$long $part 8"; done
   echo "test_runs $resume 0 1"
   for name in $parts; do
-    case $name in gap | runs) ;; *) echo "test_$name -$long 0 1" ;; esac
+    case $name in
+      gap | runs) ;;
+      live) for part in 0 1; do echo "test_live -$long $part 2"; done ;;
+      *) echo "test_$name -$long 0 1" ;;
+    esac
   done
   printf '%s\n' $windows
 } | xargs -P "$(nproc)" -L 1 bash -c 'sanitized "$@"' _

@@ -89,7 +89,7 @@ TEST(CandidateSizes, AWaveOfAnyPhaseIsSeenWhereManyEffectsAreTried) {
   for (const double phase : {0.0, M_PI / 2, -M_PI / 2, 3.1}) {
     const SimulatorSpec truth{
         {}, {{"torque_ripple", "rig.hinge", {{"amplitude_nm", 0.05}, {"per_turn", 16}, {"phase_rad", phase}}}}};
-    const GapProblem recorded = recordedFrom(truth, 0.9);
+    const GapProblem recorded = recordedFrom(truth, 0.9, 0, library(), 0.001, 2);
     const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
     const Fit fit = fitModel(problem, givenModel(problem), {}, {});
     SearchThresholds::Screening limits;

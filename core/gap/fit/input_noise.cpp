@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 
-#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/squares.h"
 #include "core/gap/replay/followed_torques.h"
 #include "core/gap/replay/replay.h"
 #include "core/spec/figures.h"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/gap/fit/fit_problem.h"
-#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
@@ -13,6 +12,7 @@
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/sample_speed.h"
+#include "core/gap/recordings/squares.h"
 #include "core/gap/recordings/stamp_truth.h"
 #include "core/gap/replay/residual.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/gap/fit/segments.h"
-#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/squares.h"
 
 namespace btr {
 namespace {

@@ -99,6 +99,7 @@ bool isSibling(const EffectLibrary& library, const std::vector<PlacedEffect>& ef
 
 void addSiblings(const FitService& service, const Confirmer& confirmer, Selection& selection, std::size_t i) {
   const FitProblem& problem = service.problem();
+  if (problem.walks) return;
   while (isAtAJoint(problem.library, selection.final.fit.model.effects.at(i))) {
     const Fit base = selection.final.fit;
     const std::size_t first = base.model.effects.size();

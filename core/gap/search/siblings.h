@@ -23,7 +23,8 @@ bool isSibling(const EffectLibrary& library, const std::vector<PlacedEffect>& ef
 
 /// Effect `i` of the selected model at the other joints of its robot, too: all that promise something there in one fit,
 /// without those whose size hardly differs from none, again for as long as they help by the rules that one effect has
-/// to pass (what a light joint shows is seen once the heavy ones are explained). They come last in the model.
+/// to pass (what a light joint shows is seen once the heavy ones are explained). They come last in the model. Not of
+/// walks: where feet land another way with every number, a dozen joints at once take too long.
 void addSiblings(const FitService& service, const Confirmer& confirmer, Selection& selection, std::size_t i);
 
 /// Where another effect has just taken the place of one, last in the model: the same for the siblings of what stood

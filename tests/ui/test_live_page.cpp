@@ -185,7 +185,8 @@ class TestLivePage : public QObject {
     QTRY_COMPARE(open.count(), std::size_t(4));
     QTRY_COMPARE(page.view().selected(), std::string("box"));
     emit page.view().ledTo("box", {0.2, 0.2, 0.3});
-    QTest::qWait(50);
+    const long led = page.row().period;
+    QTRY_VERIFY_WITH_TIMEOUT(page.row().period > led + 20, 20000);
     emit page.view().letGo("box");
 
     open.select("dog");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/recordings/squares.h"
 #include "core/gap/replay/followed_torques.h"
 #include "core/sim/rest.h"
 
@@ -24,24 +23,6 @@ std::vector<bool> restsAt(const std::vector<double>& time, const std::vector<dou
   for (std::size_t row = 0; row < path.size(); ++row)
     rests[row] = (row == 0 || isSlow(row - 1)) && (row + 1 == path.size() || isSlow(row));
   return rests;
-}
-
-/// The rests in which the drive gives something. One that gives nothing while its joint rests leaves all to friction,
-/// as the simulator has it, and tells how much that carries.
-void keepGiven(std::vector<bool>& rests, const std::vector<double>& torque) {
-  constexpr double nothing = 0.1;  // of the trial's torque, r.m.s. [hand]
-  Squares all;
-  for (const double value : torque)
-    if (std::isfinite(value)) all.add(value);
-  for (std::size_t row = 0; row < rests.size(); ++row) {
-    const std::size_t first = row;
-    Squares here;
-    for (; row < rests.size() && rests[row]; ++row)
-      if (std::isfinite(torque[row])) here.add(torque[row]);
-    if (row > first && here.rms() < nothing * all.rms())
-      std::fill(rests.begin() + static_cast<std::ptrdiff_t>(first), rests.begin() + static_cast<std::ptrdiff_t>(row),
-                false);
-  }
 }
 
 /// Rests with what a filter mixes them into: the longer one is, the farther it is seen.
@@ -71,7 +52,6 @@ std::vector<std::size_t> leaveOutRests(Recording& recording, const Binding& bind
     const Binding::Measured& torque = binding.measured[i];
     const Binding::Input& motion = *binding.input(Binding::Input::What::motion, torque.object, torque.part);
     std::vector<bool> rests = restsAt(time, recording.columns[motion.column], restsBelow(slides(scene, torque)));
-    keepGiven(rests, recording.columns[torque.column]);
     if (const double below_hz = comparedBelow_hz(recording); below_hz > 0) widen(rests, time, below_hz);
     const auto resting = static_cast<double>(std::ranges::count(rests, true));
     if (resting == 0 || resting > (1 - leastMoving) * static_cast<double>(rests.size())) continue;

@@ -12,7 +12,7 @@ namespace btr {
 /// or the last move has left: the recorded motion does not tell which. Torques of joints that follow their motion are
 /// compared while these turn.
 ///
-/// Leaves a joint's torque uncompared (NaN) where it rests (core/sim/rest.h) and the drive gives something, and where a
+/// Leaves a joint's torque uncompared (NaN) where it rests (core/sim/rest.h), and where a
 /// low-pass filter mixes the rest into what comes before and after. A joint that hardly ever turns keeps all of it: its
 /// torque is what it carries, and nothing else tells that. Columns of the torques from which something was taken.
 std::vector<std::size_t> leaveOutRests(Recording& recording, const Binding& binding, const Scene& scene);

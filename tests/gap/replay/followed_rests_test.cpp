@@ -17,8 +17,7 @@ namespace rests_of_joints {
 /// One joint at 100 Hz: it rests for a second, turns by 0.5 rad/s, rests for `still_s`, turns again.
 class FollowedHinge {
  public:
-  /// `given`: the torque while it rests, in that of its motion.
-  Recording recordingWith(double still_s, double turning_s = 2, double given = 1) const {
+  Recording recordingWith(double still_s, double turning_s = 2) const {
     Recording recording;
     recording.source = "trial.csv";
     recording.channels = {"time_s", "rig.hinge.position_rad", "rig.hinge.torque_nm"};
@@ -28,7 +27,7 @@ class FollowedHinge {
       for (int i = 0; i < std::lround(100 * lasting_s); ++i) {
         recording.columns[0].push_back(0.01 * static_cast<double>(recording.columns[0].size()));
         recording.columns[1].push_back(position);
-        recording.columns[2].push_back(rate == 0 ? given : 1);
+        recording.columns[2].push_back(1);
         position += 0.01 * rate;
       }
     };
@@ -66,13 +65,6 @@ TEST(FollowedRests, WhatAFilterMixesARestIntoIsNotComparedEither) {
   brief.filterPeriod_s = 0.01;
   brief.filterCutoff_hz = 10;
   EXPECT_NEAR(static_cast<double>(FollowedHinge().leftOf(brief).first), 400 - 15 - 2 * 3, 8);
-}
-
-/// A drive that gives nothing leaves all to friction, which tells how much that carries.
-TEST(FollowedRests, ARestWithoutTorqueIsCompared) {
-  const auto [left, taken] = FollowedHinge().leftOf(FollowedHinge().recordingWith(1, 2, 0.01));
-  EXPECT_TRUE(taken.empty());
-  EXPECT_EQ(left, 600);
 }
 
 TEST(FollowedRests, AJointThatHardlyTurnsKeepsWhatItCarries) {

@@ -46,6 +46,8 @@ std::vector<std::string> effectPlaces(Effect::Place place, const Scene& scene, s
   return places;
 }
 
+std::string ownerOf(const std::string& place) { return place.substr(0, place.find('.')); }
+
 std::string everyJointOf(const std::string& robot) { return robot + ".*"; }
 
 std::vector<std::string> sharedPlaces(const Effect& effect, std::span<const SceneRobot> robots) {

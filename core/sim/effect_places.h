@@ -19,6 +19,9 @@ enum class EffectJoints {
 std::vector<std::string> effectPlaces(Effect::Place place, const Scene& scene, std::span<const SceneRobot> robots,
                                       EffectJoints joints = EffectJoints::moving);
 
+/// What a place belongs to: "dog" of "dog.leg1"; a ball's or the floor's is itself.
+std::string ownerOf(const std::string& place);
+
 /// The place of an effect that all joints of a robot have with the same numbers, as simulator files write it: "dog.*".
 std::string everyJointOf(const std::string& robot);
 

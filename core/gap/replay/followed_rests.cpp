@@ -35,8 +35,9 @@ void widen(std::vector<bool>& rests, const std::vector<double>& time, double bel
     while (row < rests.size() && rests[row]) ++row;
     if (row == first) continue;
     const double around = std::min(reach / below_hz, timesItself * (time[row - 1] - time[first]));
-    for (std::size_t k = 0; k < rests.size(); ++k)
-      if (time[k] > time[first] - around && time[k] < time[row - 1] + around) wide[k] = true;
+    const auto from = std::upper_bound(time.begin(), time.end(), time[first] - around) - time.begin();
+    const auto until = std::lower_bound(time.begin(), time.end(), time[row - 1] + around) - time.begin();
+    if (from < until) std::fill(wide.begin() + from, wide.begin() + until, true);
   }
   rests = std::move(wide);
 }

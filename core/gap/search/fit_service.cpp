@@ -171,6 +171,12 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
   return scored;
 }
 
+std::optional<Scored> FitService::tryScored(const FitJob& job, int iterations, const std::string& stage,
+                                            double at) const {
+  const std::vector<Fit> fits = completed(tryFits({job}, iterations, stage, at, at));
+  return fits.empty() ? std::nullopt : tryScores(fits, stage, at, at)[0];
+}
+
 std::vector<Scored> FitService::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
                                          double to) const {
   std::vector<Scored> all;

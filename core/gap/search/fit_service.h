@@ -58,6 +58,8 @@ class FitService {
   /// Nothing for a fit whose numbers, as half of the blocks would have them, the scene refuses.
   std::vector<std::optional<Scored>> tryScores(const std::vector<Fit>& fits, const std::string& stage, double from,
                                                double to) const;
+  /// One fit, scored; nothing if the scene refuses it or its score.
+  std::optional<Scored> tryScored(const FitJob& job, int iterations, const std::string& stage, double at) const;
   /// The same for fits that must not fail: throws InputError.
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   /// What was scored with another step is fitted on and scored with the present one: only then it can be compared.

@@ -101,13 +101,11 @@ void mergeForms(const FitService& service, Selection& selection, const Scored& c
     const auto [rich, simple] = *names;
     const std::string richText = fit.model.effects[rich].text(), simpleText = fit.model.effects[simple].text();
     const FitModel alone = withSizesScanned(service, fit.model.without(simple), rich - (simple < rich), fit.shifts);
-    const std::vector<Fit> fits =
-        completed(service.tryFits({{alone, fit.shifts}}, service.thresholds().calibration.toTheEnd, stage, 0.8, 0.8));
-    const auto scored = service.tryScores(fits, stage, 0.8, 0.8);
-    if (scored.empty() || !scored[0] || !doesAsWell(*scored[0], selection.final, calibrated, service.thresholds()))
-      return;
+    const std::optional<Scored> scored =
+        service.tryScored({alone, fit.shifts}, service.thresholds().calibration.toTheEnd, stage, 0.8);
+    if (!scored || !doesAsWell(*scored, selection.final, calibrated, service.thresholds())) return;
     conclude(selection.attempts, simpleText, false, richText + " has it as a part, and does as well alone");
-    selection.take(*scored[0], richText + " and " + simpleText + " → " + richText);
+    selection.take(*scored, richText + " and " + simpleText + " → " + richText);
   }
 }
 
@@ -160,15 +158,13 @@ bool takeApart(const FitService& service, Selection& selection, const Scored& ca
       ++i;
       continue;
     }
-    const std::vector<Fit> fits =
-        completed(service.tryFits({{parts, selection.final.fit.shifts}}, service.thresholds().rivals.apartIterations,
-                                  "taking apart", 0.86, 0.86));
-    const auto apart = service.tryScores(fits, "taking apart", 0.86, 0.86);
-    if (apart.empty() || !apart[0] || !doesAsWell(*apart[0], selection.final, calibrated, service.thresholds())) {
+    const std::optional<Scored> apart = service.tryScored(
+        {parts, selection.final.fit.shifts}, service.thresholds().rivals.apartIterations, "taking apart", 0.86);
+    if (!apart || !doesAsWell(*apart, selection.final, calibrated, service.thresholds())) {
       ++i;
       continue;
     }
-    const Scored& scored = *apart[0];
+    const Scored& scored = *apart;
     const std::string ownText = own.text();
     std::string what = ownText + " →";
     for (std::size_t k = 0; k < added.size(); ++k) {

@@ -23,12 +23,11 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 std::vector<std::vector<const GapReport::Effect*>> findingsOf(const GapReport& report) {
-  const auto robotOf = [](const GapReport::Effect& effect) { return effect.at.substr(0, effect.at.find('.')); };
   std::vector<std::vector<const GapReport::Effect*>> findings;
   for (const GapReport::Effect& effect : report.tried) {
     if (!effect.accepted) continue;
     const auto same = std::ranges::find_if(findings, [&](const auto& finding) {
-      return finding[0]->effect == effect.effect && robotOf(*finding[0]) == robotOf(effect);
+      return finding[0]->effect == effect.effect && ownerOf(finding[0]->at) == ownerOf(effect.at);
     });
     if (same == findings.end())
       findings.push_back({&effect});

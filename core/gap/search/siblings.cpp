@@ -17,15 +17,13 @@ namespace {
 
 constexpr const char* atOthers = "at the other joints";
 
-std::string robotOf(const PlacedEffect& effect) { return effect.at.substr(0, effect.at.find('.')); }
-
 bool isAtAJoint(const EffectLibrary& library, const PlacedEffect& effect) {
-  return library.make(effect.effect)->place() == Effect::Place::joint && effect.at != everyJointOf(robotOf(effect));
+  return library.make(effect.effect)->place() == Effect::Place::joint && effect.at != everyJointOf(ownerOf(effect.at));
 }
 
 /// What names a finding: where effects are counted one by one, their place as well.
 std::string findingOf(const EffectLibrary& library, const PlacedEffect& effect) {
-  return isAtAJoint(library, effect) ? effect.effect + " of " + robotOf(effect) : effect.text();
+  return isAtAJoint(library, effect) ? effect.effect + " of " + ownerOf(effect.at) : effect.text();
 }
 
 /// The effect at the joints that have it not yet.
@@ -33,7 +31,7 @@ std::vector<EffectCandidate> elsewhere(const FitService& service, const FitModel
   std::vector<EffectCandidate> candidates = service.candidatesBeside(model, {own.effect});
   std::erase_if(candidates, [&](const EffectCandidate& candidate) {
     const PlacedEffect there = candidate.placed({});
-    return robotOf(there) != robotOf(own) || !isAtAJoint(service.problem().library, there);
+    return ownerOf(there.at) != ownerOf(own.at) || !isAtAJoint(service.problem().library, there);
   });
   return candidates;
 }
@@ -139,19 +137,18 @@ void replaceSiblings(const FitService& service, Selection& selection, const Plac
     taking.push_back(*candidate);
   }
   if (taking.empty()) return;
-  const std::vector<Fit> fits = completed(
-      service.tryFits({{model, fit.shifts}}, service.thresholds().calibration.toTheEnd, atOthers, 0.95, 0.95));
-  const auto scored = service.tryScores(fits, atOthers, 0.95, 0.95);
-  if (scored.empty() || !scored[0] || scored[0]->mean() > selection.final.mean()) return;
-  const PairedTest comparison = compare(selection.final.blocks, scored[0]->blocks);
+  const std::optional<Scored> scored =
+      service.tryScored({model, fit.shifts}, service.thresholds().calibration.toTheEnd, atOthers, 0.95);
+  if (!scored || scored->mean() > selection.final.mean()) return;
+  const PairedTest comparison = compare(selection.final.blocks, scored->blocks);
   const std::size_t first = model.effects.size() - taking.size();
   for (std::size_t k = 0; k < taking.size(); ++k) {
     conclude(selection.attempts, PlacedEffect{replaced.effect, taking[k].at, {}}.text(), false,
              taking[k].text() + " does better, as at " + taker.at);
-    selection.remember(accepted(taking[k], problem, scored[0]->fit.model, first + k, comparison,
+    selection.remember(accepted(taking[k], problem, scored->fit.model, first + k, comparison,
                                 "better than " + replaced.effect + ", as at " + taker.at));
   }
-  selection.take(*scored[0], replaced.effect + " → " + taker.effect + " at the other joints");
+  selection.take(*scored, replaced.effect + " → " + taker.effect + " at the other joints");
 }
 
 }  // namespace btr

@@ -42,9 +42,11 @@ inline std::string armUrdf() {
   return text + "</robot>";
 }
 
+using Columns = std::array<std::vector<double>, 3>;  ///< by joint
+
 struct ArmTrial {
   std::vector<double> time;
-  std::array<std::vector<double>, 3> command, position, torque;
+  Columns command, position, torque;
 };
 
 class SwungArm {

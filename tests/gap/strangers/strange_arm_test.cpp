@@ -18,30 +18,43 @@
 namespace btr {
 namespace arm_of_strangers {
 
-GapProblem problemOf(const strange::Arm& arm, int trials, double noise = 3e-4) {
+/// The arm as its owner describes it, without recordings; its servos as JSON.
+GapProblem describedArm(double step_s, const std::string& servos) {
   const TemporaryFolder folder;
   folder.write("arm.urdf", strange::armUrdf());
   GapProblem problem;
-  problem.scene =
-      sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.001, "control_period_s": 0.008, "robots": [
-    {"name": "arm", "model": "arm.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
-      "joint1": {"p": 40, "d": 2, "max_torque_nm": 30}, "joint2": {"p": 30, "d": 1.2, "max_torque_nm": 20},
-      "joint3": {"p": 10, "d": 0.3, "max_torque_nm": 8}}}]})",
-                    "scene", folder.file("."));
+  problem.scene = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": )" + std::to_string(step_s) +
+                                    R"(, "control_period_s": 0.008, "robots": [{"name": "arm", "model": "arm.urdf",
+    "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {)" +
+                                    servos + "}}]}",
+                                "scene", folder.file("."));
   problem.models = loadModels(problem.scene);
+  return problem;
+}
+
+/// Two quantities of each joint.
+Recording recordingOf(const strange::ArmTrial& made, int number, const std::string& first,
+                      const strange::Columns& ofFirst, const std::string& second, const strange::Columns& ofSecond) {
+  Recording recording;
+  recording.source = "trial_" + std::to_string(number) + ".csv";
+  recording.channels = {"time_s"};
+  recording.columns = {made.time};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string joint = "arm.joint" + std::to_string(i + 1);
+    recording.channels.insert(recording.channels.end(), {joint + first, joint + second});
+    recording.columns.insert(recording.columns.end(), {ofFirst[i], ofSecond[i]});
+  }
+  return recording;
+}
+
+GapProblem problemOf(const strange::Arm& arm, int trials, double noise = 3e-4) {
+  GapProblem problem = describedArm(0.001, R"("joint1": {"p": 40, "d": 2, "max_torque_nm": 30},
+    "joint2": {"p": 30, "d": 1.2, "max_torque_nm": 20}, "joint3": {"p": 10, "d": 0.3, "max_torque_nm": 8})");
   std::mt19937_64 random(7);
   for (int trial = 0; trial < trials; ++trial) {
     const strange::ArmTrial made = strange::SwungArm(arm).run(4, 0.008, noise, random);
-    Recording recording;
-    recording.source = "trial_" + std::to_string(trial) + ".csv";
-    recording.channels = {"time_s"};
-    recording.columns = {made.time};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::string joint = "arm.joint" + std::to_string(i + 1);
-      recording.channels.insert(recording.channels.end(), {joint + ".command_rad", joint + ".position_rad"});
-      recording.columns.insert(recording.columns.end(), {made.command[i], made.position[i]});
-    }
-    problem.recordings.push_back(recording);
+    problem.recordings.push_back(
+        recordingOf(made, trial, ".command_rad", made.command, ".position_rad", made.position));
   }
   return problem;
 }
@@ -106,8 +119,7 @@ void delay(Recording& recording) {
   }
 }
 
-/// One bus feeds all servos: what all joints share is one effect with one number.
-/// One finding, though nine numbers: at most one is asked for.
+/// One finding, though three numbers: at most one is asked for.
 TEST(StrangeArm, FrictionAtEveryJointIsOneFinding) {
   strange::Arm arm;
   arm.friction = {0.8, 0.5, 0.15};
@@ -143,29 +155,15 @@ TEST(StrangeArm, DryAndViscousFrictionAtEveryJointAreTwoFindings) {
 TEST(StrangeArm, FrictionOfJointsThatStickAsTheyTurnIsThatOfTheirMotion) {
   strange::Arm arm;
   arm.friction = {1.6, 1, 0.3};
-  GapProblem problem;
-  const TemporaryFolder folder;
-  folder.write("arm.urdf", strange::armUrdf());
-  problem.scene =
-      sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008, "robots": [
-    {"name": "arm", "model": "arm.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
-      "joint1": {"drive": "motion"}, "joint2": {"drive": "motion"}, "joint3": {"drive": "motion"}}}]})",
-                    "scene", folder.file("."));
-  problem.models = loadModels(problem.scene);
+  GapProblem problem = describedArm(
+      0.008, R"("joint1": {"drive": "motion"}, "joint2": {"drive": "motion"}, "joint3": {"drive": "motion"})");
   std::mt19937_64 random(11);
   std::normal_distribution<double> noise(0, 0.01);
   for (int trial = 0; trial < 3; ++trial) {
     strange::ArmTrial made = strange::SwungArm(arm).run(8, 0.008, 1e-5, random);
-    Recording recording;
-    recording.source = "trial_" + std::to_string(trial) + ".csv";
-    recording.channels = {"time_s"};
-    recording.columns = {made.time};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::string joint = "arm.joint" + std::to_string(i + 1);
-      for (double& torque : made.torque[i]) torque += noise(random);
-      recording.channels.insert(recording.channels.end(), {joint + ".position_rad", joint + ".torque_nm"});
-      recording.columns.insert(recording.columns.end(), {made.position[i], made.torque[i]});
-    }
+    for (std::vector<double>& torques : made.torque)
+      for (double& torque : torques) torque += noise(random);
+    const Recording recording = recordingOf(made, trial, ".position_rad", made.position, ".torque_nm", made.torque);
     problem.recordings.push_back(resampled(recording, {0, 15}));
   }
   AnalysisOptions options;
@@ -196,6 +194,7 @@ TEST(StrangeArm, FrictionOfOneKindAtOneJointAndOfAnotherAtTheNextIsNotSpread) {
       << toPlainText(report);
 }
 
+/// One bus feeds all servos: what all joints share is one effect with one number.
 TEST(StrangeArm, ADelayThatAllJointsShareIsOneEffect) {
   strange::Arm arm;
   arm.friction[1] = 0.6;

@@ -138,15 +138,13 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
     model = model.with(service_.problem(), candidate.placed(from));
   }
   if (model.effects.size() + 1 != final.fit.model.effects.size() + names.size()) return;
-  const std::vector<Fit> fits = completed(service_.tryFits(
-      {{model, final.fit.shifts}}, service_.thresholds().rivals.togetherIterations, "rivals", 0.95, 0.95));
-  const auto scored = service_.tryScores(fits, "rivals", 0.95, 0.95);
-  if (scored.empty() || !scored[0] || isWorse(compare(scored[0]->blocks, final.blocks), service_.thresholds().rivals))
-    return;
-  const double ratio = std::sqrt(scored[0]->mean() / std::max(1e-12, final.mean()));
+  const std::optional<Scored> scored =
+      service_.tryScored({model, final.fit.shifts}, service_.thresholds().rivals.togetherIterations, "rivals", 0.95);
+  if (!scored || isWorse(compare(scored->blocks, final.blocks), service_.thresholds().rivals)) return;
+  const double ratio = std::sqrt(scored->mean() / std::max(1e-12, final.mean()));
   for (std::size_t k = 0; k < names.size(); ++k) {
     found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
-    found.rivalFits.push_back(fits[0]);
+    found.rivalFits.push_back(scored->fit);
   }
 }
 

@@ -20,7 +20,7 @@ sanitized_part() {  # program, filter, part, of how many: every so-manieth test
 }
 sanitized_window() {
   local log=$logs/$BASHPID began=$SECONDS
-  XDG_RUNTIME_DIR=/tmp timeout 1200 "$bin/$1" > "$log" 2>&1 || { cat "$log"; echo "FAILED: $1"; return 1; }
+  XDG_RUNTIME_DIR=/tmp timeout 1200 "$bin/ui_tests" "$1" > "$log" 2>&1 || { cat "$log"; echo "FAILED: $1"; return 1; }
   echo "$1: $(grep '^Totals' "$log") in $((SECONDS - began)) s"
 }
 sanitized() { if [ $# = 1 ]; then sanitized_window "$@"; else sanitized_part "$@"; fi; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/alarm_sound.h"
 
@@ -116,5 +117,5 @@ class TestAlarm : public QObject {
   }
 };
 
-QTEST_MAIN(TestAlarm)
+UI_TEST(TestAlarm)
 #include "test_alarm.moc"

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "core/spec/error.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/compare_page.h"
 #include "ui/charts/plot_widget.h"
 
@@ -305,5 +306,5 @@ class TestComparePage : public QObject {
   }
 };
 
-QTEST_MAIN(TestComparePage)
+UI_TEST(TestComparePage)
 #include "test_compare_page.moc"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/compare_page.h"
 #include "ui/controllers/compare_controller.h"
 #include "ui/controllers/draft_controller.h"
@@ -230,5 +231,5 @@ class TestControllers : public QObject {
   }
 };
 
-QTEST_MAIN(TestControllers)
+UI_TEST(TestControllers)
 #include "test_controllers.moc"

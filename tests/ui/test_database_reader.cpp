@@ -8,6 +8,7 @@
 #include "core/spec/error.h"
 #include "tests/ui/locked_database.h"
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/database/database_reader.h"
 
 using namespace btr;
@@ -200,5 +201,5 @@ class TestDatabaseReader : public QObject {
   }
 };
 
-QTEST_MAIN(TestDatabaseReader)
+UI_TEST(TestDatabaseReader)
 #include "test_database_reader.moc"

@@ -5,6 +5,7 @@
 
 #include "core/spec/error.h"
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/database/database_watcher.h"
 
 using namespace btr;
@@ -185,5 +186,5 @@ class TestDatabaseWatcher : public QObject {
   }
 };
 
-QTEST_MAIN(TestDatabaseWatcher)
+UI_TEST(TestDatabaseWatcher)
 #include "test_database_watcher.moc"

@@ -9,6 +9,7 @@
 #include <QTest>
 
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/main_window.h"
 #include "ui/measure/measurement_sheet.h"
@@ -189,5 +190,5 @@ class TestEditAndLook : public QObject {
   }
 };
 
-QTEST_MAIN(TestEditAndLook)
+UI_TEST(TestEditAndLook)
 #include "test_edit_and_look.moc"

@@ -11,6 +11,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/numbers/number_edit.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/parameter_form.h"
@@ -484,5 +485,5 @@ class TestExperimentForm : public QObject {
   }
 };
 
-QTEST_MAIN(TestExperimentForm)
+UI_TEST(TestExperimentForm)
 #include "test_experiment_form.moc"

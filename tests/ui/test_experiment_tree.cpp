@@ -9,6 +9,7 @@
 #include <QTreeView>
 
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/experiment/badge_delegate.h"
 #include "ui/experiment/experiment_tree.h"
 
@@ -327,5 +328,5 @@ class TestExperimentTree : public QObject {
   }
 };
 
-QTEST_MAIN(TestExperimentTree)
+UI_TEST(TestExperimentTree)
 #include "test_experiment_tree.moc"

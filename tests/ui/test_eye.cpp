@@ -5,6 +5,7 @@
 #include "core/model/kinematics.h"
 #include "core/sim/scene.h"
 #include "tests/ui/small_robot.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/scene3d/eye_renderer.h"
 #include "ui/scene3d/scene_builder.h"
 
@@ -329,5 +330,5 @@ void TestEye::noOpenGlIsSaid() {
   QCOMPARE(renderer.problem(), QString("no driver on this machine"));
 }
 
-QTEST_MAIN(TestEye)
+UI_TEST(TestEye)
 #include "test_eye.moc"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
@@ -238,5 +239,5 @@ class TestFitnessAndGapCharts : public QObject {
   }
 };
 
-QTEST_MAIN(TestFitnessAndGapCharts)
+UI_TEST(TestFitnessAndGapCharts)
 #include "test_fitness_and_gap_charts.moc"

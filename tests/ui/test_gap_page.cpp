@@ -31,6 +31,7 @@
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/report/sample_report.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/progress.h"
 #include "ui/gap/analysis_setup.h"
@@ -840,5 +841,5 @@ class TestGapPage : public QObject {
   }
 };
 
-QTEST_MAIN(TestGapPage)
+UI_TEST(TestGapPage)
 #include "test_gap_page.moc"

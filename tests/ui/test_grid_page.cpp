@@ -13,6 +13,7 @@
 #include "core/run/grid/grid_losses.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/controllers/grid_controller.h"
 #include "ui/experiment/parameter_field.h"
@@ -499,5 +500,5 @@ class TestGridPage : public QObject {
   }
 };
 
-QTEST_MAIN(TestGridPage)
+UI_TEST(TestGridPage)
 #include "test_grid_page.moc"

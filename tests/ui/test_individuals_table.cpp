@@ -13,6 +13,7 @@
 
 #include "core/gap/report/report_plain.h"
 #include "core/spec/error.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/short_label.h"
 #include "ui/database/individual_details.h"
 #include "ui/database/individuals_table.h"
@@ -369,5 +370,5 @@ class TestIndividualsTable : public QObject {
   }
 };
 
-QTEST_MAIN(TestIndividualsTable)
+UI_TEST(TestIndividualsTable)
 #include "test_individuals_table.moc"

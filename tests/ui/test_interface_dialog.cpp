@@ -13,6 +13,7 @@
 #include <QTest>
 #include <memory>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/remote/interface_dialog.h"
 #include "ui/remote/interface_server.h"
 
@@ -115,5 +116,5 @@ void TestInterfaceDialog::endsWithItsOwner() {
 
 }  // namespace btr::ui
 
-QTEST_MAIN(btr::ui::TestInterfaceDialog)
+UI_TEST(btr::ui::TestInterfaceDialog)
 #include "test_interface_dialog.moc"

@@ -1,6 +1,7 @@
 #include <QTest>
 #include <random>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/live/drawn/label_places.h"
 
 using namespace btr::ui;
@@ -71,5 +72,5 @@ void TestLabelPlaces::noneOverlapsHoweverMuchIsSeen() {
   }
 }
 
-QTEST_GUILESS_MAIN(TestLabelPlaces)
+UI_TEST(TestLabelPlaces)
 #include "test_label_places.moc"

@@ -21,6 +21,7 @@
 #include "core/spec/error.h"
 #include "tests/ui/open_live_page.h"
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/database/database_reader.h"
 #include "ui/common/look/message_banner.h"
@@ -426,5 +427,5 @@ class TestLiveDesk : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveDesk)
+UI_TEST(TestLiveDesk)
 #include "test_live_desk.moc"

@@ -5,6 +5,7 @@
 #include "core/camera/camera_spec.h"
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/live/drawn/view_mode.h"
 #include "ui/live/eyes/live_eye.h"
 
@@ -216,5 +217,5 @@ void TestLiveEye::aViewsCameraIsReadBack() {
   QCOMPARE(read.elevation, ViewCamera().elevation);
 }
 
-QTEST_MAIN(TestLiveEye)
+UI_TEST(TestLiveEye)
 #include "test_live_eye.moc"

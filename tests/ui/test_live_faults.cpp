@@ -16,6 +16,7 @@
 
 #include "core/live/session_log.h"
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/live/live_tools.h"
 #include "ui/live/panels/signals_panel.h"
@@ -237,5 +238,5 @@ class TestLiveFaults : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveFaults)
+UI_TEST(TestLiveFaults)
 #include "test_live_faults.moc"

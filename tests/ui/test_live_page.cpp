@@ -18,6 +18,7 @@
 
 #include "core/spec/json_reader.h"
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 
 using namespace btr;
@@ -259,5 +260,5 @@ class TestLivePage : public QObject {
   }
 };
 
-QTEST_MAIN(TestLivePage)
+UI_TEST(TestLivePage)
 #include "test_live_page.moc"

@@ -14,6 +14,7 @@
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/live/drawn/lamp_places.h"
 #include "ui/live/drawn/live_lines.h"
 #include "ui/live/live_desk.h"
@@ -193,5 +194,5 @@ class TestLivePrograms : public QObject {
   }
 };
 
-QTEST_MAIN(TestLivePrograms)
+UI_TEST(TestLivePrograms)
 #include "test_live_programs.moc"

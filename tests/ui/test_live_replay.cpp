@@ -17,6 +17,7 @@
 #include "core/spec/experiment_spec.h"
 #include "core/spec/scene_spec.h"
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/common/look/theme.h"
 #include "ui/experiment/experiment_form.h"
@@ -302,5 +303,5 @@ class TestLiveReplay : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveReplay)
+UI_TEST(TestLiveReplay)
 #include "test_live_replay.moc"

@@ -12,6 +12,7 @@
 
 #include "core/gap/recordings/recording.h"
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/live/panels/signal_picker.h"
@@ -246,5 +247,5 @@ class TestLiveSignals : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveSignals)
+UI_TEST(TestLiveSignals)
 #include "test_live_signals.moc"

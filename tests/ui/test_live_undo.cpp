@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/live/panels/slider_form.h"
 
 using namespace btr;
@@ -129,5 +130,5 @@ class TestLiveUndo : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveUndo)
+UI_TEST(TestLiveUndo)
 #include "test_live_undo.moc"

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/ui/open_live_page.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/live/drawn/extra_view.h"
 #include "ui/live/drawn/live_trails.h"
 #include "ui/live/eyes/eye_picture.h"
@@ -190,5 +191,5 @@ void TestLiveViews::trailsAreWaysThatWereGone() {
   QVERIFY(trails.ways()[0].size() <= LiveTrails::mostPlaces);
 }
 
-QTEST_MAIN(TestLiveViews)
+UI_TEST(TestLiveViews)
 #include "test_live_views.moc"

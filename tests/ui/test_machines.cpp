@@ -22,6 +22,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/cluster/job_status.h"
 #include "ui/cluster/machines_dialog.h"
 #include "ui/controllers/machines_controller.h"
@@ -399,5 +400,5 @@ void TestMachines::theDialogShowsAJobAndFitsASmallScreen() {
   QTRY_COMPARE_WITH_TIMEOUT(parts->horizontalHeaderItem(4)->text(), QString("Cases/h"), longest_ms);
 }
 
-QTEST_MAIN(TestMachines)
+UI_TEST(TestMachines)
 #include "test_machines.moc"

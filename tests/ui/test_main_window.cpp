@@ -26,6 +26,7 @@
 #include "tests/plugin/built_plugins.h"
 #include "tests/ui/locked_database.h"
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/compare_page.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
@@ -899,5 +900,5 @@ class TestMainWindow : public QObject {
   }
 };
 
-QTEST_MAIN(TestMainWindow)
+UI_TEST(TestMainWindow)
 #include "test_main_window.moc"

@@ -13,6 +13,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/store/database.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/manual.h"
@@ -118,5 +119,5 @@ class TestManual : public QObject {
   }
 };
 
-QTEST_MAIN(TestManual)
+UI_TEST(TestManual)
 #include "test_manual.moc"

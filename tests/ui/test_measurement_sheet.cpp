@@ -16,6 +16,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/common/numbers/number_entry.h"
 #include "ui/measure/measurement_sheet.h"
@@ -858,5 +859,5 @@ class TestMeasurementSheet : public QObject {
   }
 };
 
-QTEST_MAIN(TestMeasurementSheet)
+UI_TEST(TestMeasurementSheet)
 #include "test_measurement_sheet.moc"

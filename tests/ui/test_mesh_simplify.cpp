@@ -4,6 +4,7 @@
 
 #include "core/model/robot_model.h"
 #include "core/sim/scene.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/scene3d/mesh_simplify.h"
 
 using namespace btr;
@@ -155,5 +156,5 @@ void TestMeshSimplify::everyRobotGetsSmaller() {
 
 void TestMeshSimplify::nothingIsLeftAsItIs() { QVERIFY(simplified({}, 0.001).empty()); }
 
-QTEST_GUILESS_MAIN(TestMeshSimplify)
+UI_TEST(TestMeshSimplify)
 #include "test_mesh_simplify.moc"

@@ -15,6 +15,7 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/numbers/decimal_spin_box.h"
 #include "ui/common/numbers/number_edit.h"
@@ -310,5 +311,5 @@ class TestParameterForm : public QObject {
   }
 };
 
-QTEST_MAIN(TestParameterForm)
+UI_TEST(TestParameterForm)
 #include "test_parameter_form.moc"

@@ -1,4 +1,5 @@
 // Numbers in the window have a decimal point, whatever the user's locale says.
+#include "tests/ui/ui_tests.h"
 #include "ui/common/numbers/plain_numbers.h"
 
 #include <QDoubleSpinBox>
@@ -65,5 +66,5 @@ class TestPlainNumbers : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlainNumbers)
+UI_TEST(TestPlainNumbers)
 #include "test_plain_numbers.moc"

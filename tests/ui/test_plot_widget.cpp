@@ -13,6 +13,7 @@
 
 #include "core/run/reality/spread.h"
 #include "core/spec/error.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/charts/decimate.h"
 #include "ui/charts/nice_numbers.h"
 #include "ui/charts/plot_export.h"
@@ -498,5 +499,5 @@ class TestPlotWidget : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlotWidget)
+UI_TEST(TestPlotWidget)
 #include "test_plot_widget.moc"

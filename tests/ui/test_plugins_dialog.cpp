@@ -7,6 +7,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "tests/temporary_folder.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/plugins_dialog.h"
 
 namespace btr::ui {
@@ -52,5 +53,5 @@ void TestPluginsDialog::namesWhatWasNotLoadedAndWhy() {
 
 }  // namespace btr::ui
 
-QTEST_MAIN(btr::ui::TestPluginsDialog)
+UI_TEST(btr::ui::TestPluginsDialog)
 #include "test_plugins_dialog.moc"

@@ -8,6 +8,7 @@
 #include <QTableWidget>
 #include <QTest>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/measure/policy_page.h"
 
 using namespace btr;
@@ -182,5 +183,5 @@ class TestPolicyPage : public QObject {
   }
 };
 
-QTEST_MAIN(TestPolicyPage)
+UI_TEST(TestPolicyPage)
 #include "test_policy_page.moc"

@@ -11,6 +11,7 @@
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
 #include "tests/ui/small_robot.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/cut_label.h"
 #include "ui/common/numbers/format.h"
 #include "ui/scene3d/replay_job.h"
@@ -599,5 +600,5 @@ void TestReplayPanel::panelFollowsAJob() {
   QCOMPARE(panel.playback().frames(), std::size_t(0));
 }
 
-QTEST_MAIN(TestReplayPanel)
+UI_TEST(TestReplayPanel)
 #include "test_replay_panel.moc"

@@ -6,6 +6,7 @@
 #include <QTest>
 
 #include "core/store/database.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/experiment/run_launcher.h"
 
 using namespace btr;
@@ -139,5 +140,5 @@ class TestRunLauncher : public QObject {
   }
 };
 
-QTEST_MAIN(TestRunLauncher)
+UI_TEST(TestRunLauncher)
 #include "test_run_launcher.moc"

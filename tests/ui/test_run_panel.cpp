@@ -6,6 +6,7 @@
 #include <QSpinBox>
 #include <QTest>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/short_label.h"
 #include "ui/experiment/run_panel.h"
 
@@ -305,5 +306,5 @@ class TestRunPanel : public QObject {
   }
 };
 
-QTEST_MAIN(TestRunPanel)
+UI_TEST(TestRunPanel)
 #include "test_run_panel.moc"

@@ -8,6 +8,7 @@
 
 #include "core/model/kinematics.h"
 #include "tests/ui/small_robot.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/scene3d/field.h"
 #include "ui/scene3d/link_marks.h"
 #include "ui/scene3d/scene_view.h"
@@ -661,5 +662,5 @@ void TestScene3d::savesAPngWithItsTexts() {
   QVERIFY(!view.savePicture(folder.filePath("no/such/folder/view.png")));
 }
 
-QTEST_MAIN(TestScene3d)
+UI_TEST(TestScene3d)
 #include "test_scene3d.moc"

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <QTimer>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/common/look/section.h"
 #include "ui/common/look/theme.h"
@@ -144,5 +145,5 @@ class TestSettings : public QObject {
   }
 };
 
-QTEST_MAIN(TestSettings)
+UI_TEST(TestSettings)
 #include "test_settings.moc"

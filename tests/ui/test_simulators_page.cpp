@@ -3,6 +3,7 @@
 #include <QTableWidget>
 #include <QTest>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/experiment/simulators_page.h"
 
 using namespace btr;
@@ -154,5 +155,5 @@ class TestSimulatorsPage : public QObject {
   }
 };
 
-QTEST_MAIN(TestSimulatorsPage)
+UI_TEST(TestSimulatorsPage)
 #include "test_simulators_page.moc"

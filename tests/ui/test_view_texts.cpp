@@ -2,6 +2,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include "tests/ui/ui_tests.h"
 #include "ui/scene3d/ball_roll.h"
 #include "ui/scene3d/view_texts.h"
 
@@ -69,5 +70,5 @@ class TestViewTexts : public QObject {
   }
 };
 
-QTEST_MAIN(TestViewTexts)
+UI_TEST(TestViewTexts)
 #include "test_view_texts.moc"

@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/common/file_choice.h"
 #include "ui/common/look/message_banner.h"
 #include "ui/controllers/draft_controller.h"
@@ -490,5 +491,5 @@ class TestWindowEntry : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowEntry)
+UI_TEST(TestWindowEntry)
 #include "test_window_entry.moc"

@@ -13,6 +13,7 @@
 #include <QTimer>
 
 #include "tests/ui/stored_run.h"
+#include "tests/ui/ui_tests.h"
 #include "ui/gap/gap_page.h"
 #include "ui/main_window.h"
 
@@ -354,5 +355,5 @@ class TestWindowLayout : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowLayout)
+UI_TEST(TestWindowLayout)
 #include "test_window_layout.moc"

@@ -57,22 +57,27 @@ MappedColumn mappedColumn(JsonReader& entry, const std::string& channel) {
     if (*bit != std::floor(*bit)) entry.refuse("sign_bit", "a whole number");
     column.signBit = static_cast<int>(*bit);
   }
+  column.missing = numberOrFalse(entry, "missing", -1e308, 1e308, NAN);
   entry.array("add", [&](JsonReader term) {
     MappedColumn::Added added{columnFrom(term), term.number("scale", -1e12, 1e12, 1), term.flag("optional", false)};
     term.finish();
     column.added.push_back(std::move(added));
   });
+  if (column.missing && !column.added.empty()) entry.refuse("missing", "not beside \"add\"");
   if (column.scale == 0) entry.refuse("scale", "a number other than 0");
   if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
-  if (channel == "time_s" && (column.wrap || column.signBit))
-    entry.refuse(column.wrap ? "wrap" : "sign_bit", "neither wrap nor sign_bit for time");
+  if (channel == "time_s" && (column.wrap || column.signBit || column.missing))
+    entry.refuse(column.wrap      ? "wrap"
+                 : column.signBit ? "sign_bit"
+                                  : "missing",
+                 "neither wrap nor sign_bit nor missing for time");
   return column;
 }
 
 /// What is said of channels; true if time is among them.
 bool readColumns(JsonReader& reader, Mapping& mapping) {
-  constexpr std::array others{"settings", "segments", "resample", "retime",  "lost_rows",
-                              "tables",   "file",     "from_s",   "until_s", "between_rows"};
+  constexpr std::array others{"format", "settings", "segments", "resample", "retime",      "lost_rows",
+                              "tables", "file",     "from_s",   "until_s",  "between_rows"};
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
     if (std::ranges::find(others, channel) != others.end()) continue;
@@ -132,6 +137,9 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     throw InputError(place, "not an object", "{\"CHANNEL\": {\"column\": \"NAME\"}, ...}");
 
   // What is said of the whole file stands beside the channels; no channel is called like that.
+  constexpr const char* format = "uchilsim-mapping-1";
+  if (reader.any("format") && reader.text("format") != format)
+    reader.refuse("format", std::string("\"") + format + "\", or none");
   reader.array("settings", [&](JsonReader entry) {
     TrialSetting setting{entry.text("file_contains"), entry.anyValues("values")};
     if (setting.fileContains.empty()) entry.refuse("file_contains", "a part of the file's name");

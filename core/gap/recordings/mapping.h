@@ -19,12 +19,13 @@ struct MappedColumn {
   std::string column;  ///< its name, or numberedColumn()
   double scale = 1;
   double offset = 0;
-  bool optional = false;       ///< a file without this column is accepted
-  std::optional<double> wrap;  ///< period after which its counter begins again [the file's unit], 0: it never does;
-                               ///< nothing: found out
-  std::optional<int> signBit;  ///< bit of a whole number that is its sign, -1: none; nothing: found out
-  bool compare = true;         ///< false: a measurement that gives the start and the motion but is not compared
-  std::vector<Added> added;    ///< the other terms, e.g. a relative angle from two absolute ones
+  bool optional = false;          ///< a file without this column is accepted
+  std::optional<double> wrap;     ///< period after which its counter begins again [the file's unit], 0: it never does;
+                                  ///< nothing: found out
+  std::optional<int> signBit;     ///< bit of a whole number that is its sign, -1: none; nothing: found out
+  std::optional<double> missing;  ///< the file's number for "no value", NaN: it has none; nothing: found out
+  bool compare = true;            ///< false: a measurement that gives the start and the motion but is not compared
+  std::vector<Added> added;       ///< the other terms, e.g. a relative angle from two absolute ones
 };
 /// Numbers of the scene that were set differently from trial to trial and stand only in the file's name.
 struct TrialSetting {

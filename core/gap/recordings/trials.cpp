@@ -8,6 +8,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/counts.h"
 #include "core/gap/recordings/doctor/lost_rows.h"
+#include "core/gap/recordings/doctor/marked_missing.h"
 #include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/doctor/repeated.h"
 #include "core/gap/recordings/doctor/retime.h"
@@ -128,8 +129,9 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
   std::vector<Recording> trials = divide(std::move(whole), mapping);
   for (Recording& trial : trials) {
     orderRows(trial, mapping && mapping->retime_s);
-    noteEmptyCells(trial);
     mendCounts(trial, mapping);
+    emptyMarked(trial, mapping);  // after it: −1 of 16 bits is 65535, too
+    noteEmptyCells(trial);
     if (mapping && mapping->retime_s) retime(trial, *mapping->retime_s);
     if (mapping) bound(trial, *mapping);
     refuseJumps(trial);

@@ -1,6 +1,7 @@
 #include "core/gap/search/refinement.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,21 +51,32 @@ std::vector<Refined> refinementsOf(const FitService& service, const FitModel& mo
 
 constexpr const char* stage = "refining what was found";
 
-/// The best fit from several sizes of the details, or nothing where the scene refuses them all.
-std::optional<Fit> fitted(const FitService& service, const Refined& refined, const Fit& from) {
-  const SearchThresholds::Refinement& limits = service.thresholds().refinement;
+/// The model with details of its law as `sizeOf` has them.
+FitJob begunWith(const FitService& service, const Refined& refined, const Fit& from,
+                 const std::function<double(const FitParameter&)>& sizeOf) {
   const auto declared = service.problem().library.make(refined.model.effects[refined.effect].effect)->parameters();
-  std::vector<FitJob> jobs;
-  for (const double share : limits.shares) {
-    FitModel model = refined.model;
-    for (std::size_t k = 0; k < model.parameters.size(); ++k) {
-      const FitParameter& p = model.parameters[k];
-      const Parameter* const known = p.effect == static_cast<int>(refined.effect) ? find(declared, p.name) : nullptr;
-      if (known && known->refines) model.values[k] = p.minimum + share * (p.maximum - p.minimum);
-    }
-    jobs.push_back({std::move(model), from.shifts});
+  FitModel model = refined.model;
+  for (std::size_t k = 0; k < model.parameters.size(); ++k) {
+    const FitParameter& p = model.parameters[k];
+    const Parameter* const known = p.effect == static_cast<int>(refined.effect) ? find(declared, p.name) : nullptr;
+    if (known && known->refines) model.values[k] = std::clamp(sizeOf(p), p.minimum, p.maximum);
   }
-  const std::vector<Fit> fits = completed(service.tryFits(jobs, limits.iterations, stage, 0.8, 0.8));
+  return {std::move(model), from.shifts};
+}
+
+/// The best fit from several sizes of the details, or nothing where the scene refuses them all. `like`: the same law at
+/// another joint, whose details are known; this one's are about as large.
+std::optional<Fit> fitted(const FitService& service, const Refined& refined, const Fit& from,
+                          const std::optional<PlacedEffect>& like) {
+  std::vector<FitJob> jobs;
+  if (like && like->effect == refined.model.effects[refined.effect].effect)
+    jobs.push_back(begunWith(service, refined, from, [&](const auto& p) { return like->parameters.at(p.name); }));
+  else
+    for (const double share : service.thresholds().refinement.shares)
+      jobs.push_back(begunWith(service, refined, from,
+                               [&](const auto& p) { return p.minimum + share * (p.maximum - p.minimum); }));
+  const std::vector<Fit> fits =
+      completed(service.tryFits(jobs, service.thresholds().refinement.iterations, stage, 0.8, 0.8));
   if (fits.empty()) return std::nullopt;
   return *std::ranges::min_element(fits, costsLess);
 }
@@ -75,13 +87,14 @@ bool isBetter(const Scored& refined, const Scored& plain, const SearchThresholds
          plain.mean() - refined.mean() >= limits.confirmation.leastShareOfExcess * excessOf(plain);
 }
 
-/// Refines effect `i`, where that does better. Whether it did.
-bool refine(const FitService& service, Confirmer& confirmer, Selection& selection, std::size_t i) {
+/// Refines effect `i`, where that does better; the law that stands there then, or nothing. `like`: see fitted.
+std::optional<PlacedEffect> refine(const FitService& service, Confirmer& confirmer, Selection& selection, std::size_t i,
+                                   const std::optional<PlacedEffect>& like = std::nullopt) {
   std::vector<Refined> refinements = refinementsOf(service, selection.final.fit.model, i);
   std::vector<Fit> fits;
   std::vector<Refined> made;
   for (Refined& refined : refinements)
-    if (const auto fit = fitted(service, refined, selection.final.fit)) {
+    if (const auto fit = fitted(service, refined, selection.final.fit, like)) {
       fits.push_back(*fit);
       made.push_back(std::move(refined));
     }
@@ -91,21 +104,22 @@ bool refine(const FitService& service, Confirmer& confirmer, Selection& selectio
     if (scored[k] && isBetter(*scored[k], selection.final, service.thresholds()) &&
         (!best || scored[k]->mean() < scored[*best]->mean()))
       best = k;
-  if (!best) return false;
+  if (!best) return std::nullopt;
   const PlacedEffect own = selection.final.fit.model.effects[i];
   const PairedTest comparison = compare(selection.final.blocks, scored[*best]->blocks);
   const Scored better = confirmer.converged(*scored[*best], stage, 0.8);
   const Refined& refined = made[*best];
+  const PlacedEffect now = better.fit.model.fittedEffect(service.problem(), refined.effect);
   if (!refined.isSimplerForm()) {
     selection.take(better, own.text() + ", refined");
-    return true;
+    return now;
   }
   const std::string text = refined.candidate.text();
   selection.remember(accepted(refined.candidate, service.problem(), better.fit.model, refined.effect, comparison,
                               "simpler than " + own.text() + ", and better in detail"));
   conclude(selection.attempts, own.text(), false, text + " does better in detail");
   selection.take(better, own.text() + " → " + text);
-  return true;
+  return now;
 }
 
 }  // namespace
@@ -119,10 +133,11 @@ void refineLaws(const FitService& service, Confirmer& confirmer, Selection& sele
     return static_cast<std::size_t>(std::ranges::find(now, effect.text(), &PlacedEffect::text) - now.begin());
   };
   for (std::size_t i = before.size(); i-- > 0;) {
-    if (isSibling(library, before, i) || !refine(service, confirmer, selection, placeOf(before[i]))) continue;
+    if (isSibling(library, before, i)) continue;
     // Details that one joint does not show are not looked for at the others.
-    for (const std::size_t k : siblingsOf(library, before, i))
-      refine(service, confirmer, selection, placeOf(before[k]));
+    if (const auto law = refine(service, confirmer, selection, placeOf(before[i])))
+      for (const std::size_t k : siblingsOf(library, before, i))
+        refine(service, confirmer, selection, placeOf(before[k]), law);
   }
 }
 

@@ -49,6 +49,8 @@ class StructureSearch {
   void beginFrom(const Calibration& calibration);
   /// No more than noise, the integration of either side, and `ofLaws` [noise floors²].
   bool isNothingLeft(double ofLaws) const;
+  /// Enough to look for two effects that need each other: more than what was found hides by itself.
+  bool isLeftForTwo() const;
   /// What was just found, in more detail where it leaves something.
   void refine();
   /// One effect at a time, or two that need each other, for as long as they help. `stage`: as many are there.
@@ -132,6 +134,13 @@ bool StructureSearch::isNothingLeft(double ofLaws) const {
   return selection_.final.mean() < nothing + ofLaws + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit));
 }
 
+bool StructureSearch::isLeftForTwo() const {
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  const double left = excessOf(selection_.final);
+  const bool isLittle = left < limits.littleExcess && left < limits.littleOfExcess * excessOf(calibration_.calibrated);
+  return left > limits.lastChanceExcess && !isLittle;
+}
+
 void StructureSearch::spread(std::size_t effects) {
   const std::size_t first = selection_.final.fit.model.effects.size() - effects;
   for (std::size_t i = first; i < first + effects; ++i)
@@ -186,8 +195,7 @@ void StructureSearch::addEffects(int stage) {
       refine();
       continue;
     }
-    const bool mayBeTwo =
-        hasRoomFor(2) && excessOf(selection_.final) > limits.lastChanceExcess && pairs_.promisesAPair(tried);
+    const bool mayBeTwo = hasRoomFor(2) && isLeftForTwo() && pairs_.promisesAPair(tried);
     if (const auto pair = mayBeTwo ? pairs_.find(selection_.final, tried) : std::nullopt) {
       PairSearch::accept(selection_, *pair, "+ ");
       spread(2);

@@ -177,6 +177,8 @@ struct SearchThresholds {
                                           ///< calibration took for a third of the gain]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
     double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]
+    double littleOfExcess = 0.01;  ///< of the calibrated simulator's: so little, and no more than
+    double littleExcess = 3;    ///< (two noise floors), left by what was found: no pair is looked for beside it [time]
     double doubtfulExcess = 1;  ///< left by one effect: two others in its place are tried [case: payload
                                 ///< beside a servo of any strength]
   };
@@ -241,6 +243,7 @@ struct SearchThresholds {
     int replaced = 3;                 ///< times at most that one takes another's place [time]
     int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]
     int togetherIterations = 15;      ///< of two that say the same together [time]
+    std::size_t screened = 16;        ///< for an effect's place in full, after a first look at all [time]
     std::size_t handedTo = 6;         ///< candidates that an effect's place is handed over to bit by bit [time]
     double leastPromise = 0.25;       ///< of the best one's [hand]
     double valley = 4;                ///< times the final cost on the way: farther is out of the valley [case]
@@ -253,6 +256,12 @@ struct SearchThresholds {
     double smallestForm = 0.02, largestForm = 50, formRatio = 1.15;
     std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
     double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
+
+    /// Screening that takes a first look at all, and few in full.
+    Screening of(Screening usual) const {
+      usual.many = usual.promising = screened;
+      return usual;
+    }
   };
 
   /// Where the error lies that calibration leaves (locate.h): describes, decides nothing.
@@ -320,6 +329,8 @@ struct SearchThresholds {
     double ofBest = 0.5;         ///< as much as this of the best [hand]
     int firstIterations = 4;     ///< of these fits [time]
     int iterations = 10;         ///< of the best one's [time]
+    double inRace = 4;           ///< by error after these, of the better of few and of many knots: more, and it is left
+                                 ///< [time]
     int polishings = 3;          ///< as many again, at most, while they help [time]
     double settled = 0.9;        ///< of the error before: as many iterations that leave more are the last [hand]
     double leastT = 3;           ///< paired over blocks, against without it [prototype]
@@ -405,20 +416,14 @@ struct SearchThresholds {
     double muchLeft = 25;    ///< error from which it is run, as verdict.muchLeft [time]
     double hopeless = 2;     ///< instead of screening.hopeless, and of screening.inReach beside the final model [time]
     double worthMore = 1.1;  ///< instead of confirmation.worthMore [time]
-    std::size_t screened = 16;  ///< candidates for an effect's place, after a first look at all [time]
-    std::size_t handedTo = 4;   ///< instead of rivals.handedTo [time]
-    int wayIterations = 8;      ///< instead of rivals.wayIterations [time]
-    double valley = 1.7;        ///< instead of rivals.valley [time]
-    double valleyEnd = 1.4;     ///< instead of rivals.valleyEnd [time]
-    int iterations = 10;        ///< of what arrives there; what is not within valleyEnd then is fitted no more [time]
-    double formRatio = 1.3;     ///< instead of rivals.formRatio [time]
+    std::size_t handedTo = 4;  ///< instead of rivals.handedTo [time]
+    int wayIterations = 8;     ///< instead of rivals.wayIterations [time]
+    double valley = 1.7;       ///< instead of rivals.valley [time]
+    double valleyEnd = 1.4;    ///< instead of rivals.valleyEnd [time]
+    int iterations = 10;       ///< of what arrives there; what is not within valleyEnd then is fitted no more [time]
+    double formRatio = 1.3;    ///< instead of rivals.formRatio [time]
 
     bool isRun(double error) const { return error > muchLeft; }
-    /// Screening that takes a first look at all, and few in full.
-    Screening of(Screening usual) const {
-      usual.many = usual.promising = screened;
-      return usual;
-    }
   };
 
   Step step;

@@ -1,4 +1,5 @@
 #include "core/gap/recordings/doctor/doctor.h"
+#include "core/gap/recordings/doctor/objection.h"
 #include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/recording.h"
 
@@ -109,6 +110,19 @@ TEST(Doctor, SaysNothingOfClocksWhereNothingMovesTogether) {
   EXPECT_FALSE(clockOffset(times, command, std::vector<double>(times.size(), 0.2)));
   EXPECT_FALSE(clockOffset(times, command, other));
   EXPECT_FALSE(clockOffset(std::vector<double>{0, 1}, std::vector<double>{0, 1}, std::vector<double>{0, 1}));
+}
+
+/// Who mends one column at a time is refused as often as there are columns.
+TEST(Objection, NamesEachChannelOnceAndNoneThatFollowsElsewhere) {
+  Objection objection;
+  EXPECT_FALSE(objection.text());
+  const Finding knee{"leg.knee.position_rad", "the knee is in degrees", true};
+  const Finding hip{"leg.hip.position_rad", "the hip is reversed", true, true};
+  const Finding ankle{"leg.ankle.position_rad", "the ankle leaps", true};
+  const Finding doubt{"leg.toe.position_rad", "the toe may be late"};
+  objection.hear("a.csv", "m.json", {{knee, hip, doubt}, {}});
+  objection.hear("b.csv", "m.json", {{knee, ankle}, {"leg.hip.position_rad"}});
+  EXPECT_EQ(objection.text(), "a.csv: the knee is in degrees; and b.csv: the ankle leaps");
 }
 
 }  // namespace

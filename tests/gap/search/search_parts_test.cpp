@@ -81,7 +81,7 @@ TEST(Screener, PromisesMostOfWhatIsMissing) {
   Parts parts(dryFriction, considering({"command_delay", "coulomb_friction", "joint_spring"}));
   const Screening screening =
       Screener(parts.service)
-          .screenBeside({parts.calibration.base.fit}, "", nullptr, parts.service.thresholds().screening, "", 0, 1);
+          .screenBeside({parts.calibration.base.fit}, {}, nullptr, parts.service.thresholds().screening, "", 0, 1);
   ASSERT_FALSE(screening.tried.empty());
   EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
   EXPECT_EQ(screening.tried[0].attempt.rank, 1);
@@ -89,20 +89,20 @@ TEST(Screener, PromisesMostOfWhatIsMissing) {
   EXPECT_FALSE(screening.tried[0].attempt.fitted) << "screening fits nothing";
 }
 
-TEST(Screener, InAShortRaceFewAreScreenedInFullAndWhatIsMissingIsAmongThoseToFit) {
+TEST(Screener, ForAnEffectsPlaceScreensFewInFullAndWhatIsMissingIsAmongThoseToFit) {
   Parts parts(dryFriction, {});
   const SearchThresholds& limits = parts.service.thresholds();
   const Screening screening =
       Screener(parts.service)
-          .screenBeside({parts.calibration.base.fit}, "", nullptr, limits.shortRace.of(limits.screening), "", 0, 1);
-  ASSERT_GT(screening.tried.size(), 2 * limits.shortRace.screened) << "all effects were looked at";
+          .screenBeside({parts.calibration.base.fit}, {}, nullptr, limits.rivals.of(limits.screening), "", 0, 1);
+  ASSERT_GT(screening.tried.size(), 2 * limits.rivals.screened) << "all effects were looked at";
   // Friction by direction, which contains it, may promise a little more.
   const auto missing = std::ranges::find(screening.tried, std::string("coulomb_friction at rig.hinge"),
                                          [](const TriedCandidate& each) { return each.attempt.candidate.text(); });
   ASSERT_NE(missing, screening.tried.end());
   EXPECT_LE(static_cast<std::size_t>(missing->attempt.rank), limits.screening.fittedAsRivals);
   const auto wasScreened = [&](const TriedCandidate& each) { return !screening.promiseOf(each).starts.empty(); };
-  EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), limits.shortRace.screened);
+  EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), limits.rivals.screened);
 }
 
 TEST(CrossValidation, IsTheSameWhereTheSensitivitiesAreKnown) {

@@ -1,7 +1,5 @@
 #include "core/gap/recordings/doctor/objection.h"
 
-#include <algorithm>
-
 namespace btr {
 
 void Objection::hear(const std::string& source, const std::string& mapping, const Diagnosis& found) {
@@ -12,10 +10,15 @@ void Objection::hear(const std::string& source, const std::string& mapping, cons
 }
 
 std::optional<std::string> Objection::text() const {
-  const auto first = std::find_if(certain_.begin(), certain_.end(), [&](const Certain& each) {
-    return !each.refutable || !following_.contains(each.read);
-  });
-  return first == certain_.end() ? std::nullopt : std::optional(first->text);
+  constexpr std::size_t mostInWords = 3;
+  std::set<Read> told;
+  std::string words;
+  for (const Certain& each : certain_) {
+    if ((each.refutable && following_.contains(each.read)) || !told.insert(each.read).second) continue;
+    if (told.size() <= mostInWords) words += (words.empty() ? "" : "; and ") + each.text;
+  }
+  if (told.size() > mostInWords) words += "; and " + std::to_string(told.size() - mostInWords) + " channels more";
+  return words.empty() ? std::nullopt : std::optional(words);
 }
 
 }  // namespace btr

@@ -15,7 +15,7 @@ class Objection {
  public:
   /// One more recording; `mapping` is the file that says how it was read, "" for none.
   void hear(const std::string& source, const std::string& mapping, const Diagnosis& found);
-  /// "FILE: WORDS" of the first one; nothing if there is none.
+  /// "FILE: WORDS; and FILE: WORDS" of the first recording that shows it, for each channel; nothing if there is none.
   std::optional<std::string> text() const;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/parallel.h"
@@ -35,20 +36,22 @@ class LawSearch {
   LawSearch(const FitProblem& problem, const FitModel& named, int jobs, const SearchThresholds& thresholds)
       : problem_(problem), named_(named), jobs_(jobs), limits_(thresholds.law) {}
 
-  /// The law `there` with one curve more, fitted and scored; nothing where none promises anything.
-  std::optional<LearnedLaw> extend(const Law& there, const Fit& fit, const Linearised& linear);
+  /// The law `there` with one curve more, fitted and scored; nothing where none promises anything, or the best one
+  /// leaves more than `hopeless` after a short fit.
+  std::optional<LearnedLaw> extend(const Law& there, const Fit& fit, const Linearised& linear,
+                                   double hopeless = std::numeric_limits<double>::infinity());
   std::size_t looked() const { return looked_; }
 
  private:
   /// A law's values scaled so that the start is no worse than without its last term.
   Law damped(Law law, const Fit& fit) const;
   Fit fitted(const Law& law, const Fit& from, int iterations) const;
-  /// The same, cross-validated, and carried on as long as much is left and more iterations take some of it: an
-  /// unfinished curve looks as if it needed a name beside it.
-  LearnedLaw polished(const Law& law, const Fit& from) const;
+  /// Cross-validated, and carried on as long as much is left and more iterations take some of it: an unfinished curve
+  /// looks as if it needed a name beside it.
+  LearnedLaw polished(LearnedLaw learned) const;
   LearnedLaw scored(const Fit& fit, const Law& law) const;
-  /// Which of the options predicts other blocks best after a short fit in replay.
-  const LawOption* best(const std::vector<LawOption>& options, const Fit& fit) const;
+  /// Which of the options predicts other blocks best after a short fit in replay, if it leaves at most `hopeless`.
+  const LawOption* best(const std::vector<LawOption>& options, const Fit& fit, double hopeless) const;
 
   const FitProblem& problem_;
   FitModel named_;
@@ -83,14 +86,13 @@ LearnedLaw LawSearch::scored(const Fit& fit, const Law& law) const {
   return learned;
 }
 
-LearnedLaw LawSearch::polished(const Law& law, const Fit& from) const {
-  LearnedLaw learned = scored(fitted(law, from, limits_.iterations), law);
+LearnedLaw LawSearch::polished(LearnedLaw learned) const {
   for (int more = 0; more < limits_.polishings && excessOf(learned.scored) > limits_.leastExcess; ++more) {
     // A curve has many knots: its sensitivities, which scoring took, begin the next fit.
     FitOptions onwards{limits_.iterations};
     onwards.inherited = &learned.linear;
     const Fit& fit = learned.scored.fit;
-    LearnedLaw next = scored(fitModel(problem_, fit.model, fit.shifts, onwards), law);
+    LearnedLaw next = scored(fitModel(problem_, fit.model, fit.shifts, onwards), learned.law);
     const bool settled = next.scored.mean() > limits_.settled * learned.scored.mean();
     if (next.scored.mean() < learned.scored.mean()) learned = std::move(next);
     if (settled) break;
@@ -98,7 +100,7 @@ LearnedLaw LawSearch::polished(const Law& law, const Fit& from) const {
   return learned;
 }
 
-const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fit& fit) const {
+const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fit& fit, double hopeless) const {
   std::size_t count = 0;
   while (count < options.size() && count < limits_.fitted && options[count].share >= limits_.ofBest * options[0].share)
     ++count;
@@ -109,7 +111,7 @@ const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fi
     return {crossValidate(alone, fitModel(alone, model, fit.shifts, {limits_.firstIterations})).mean()};
   });
   const LawOption* chosen = nullptr;
-  double least = INFINITY;
+  double least = hopeless;
   for (std::size_t i = 0; i < count; ++i)
     if (errors[i].ok() && errors[i].numbers[0] < least) {
       least = errors[i].numbers[0];
@@ -118,18 +120,24 @@ const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fi
   return chosen;
 }
 
-std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, const Linearised& linear) {
+std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, const Linearised& linear,
+                                            double hopeless) {
   const std::vector<LawOption> options = screenLaws(problem_, named_, fit, linear, there, jobs_, limits_);
   looked_ += options.size();
-  const LawOption* option = options.empty() ? nullptr : best(options, fit);
+  const LawOption* option = options.empty() ? nullptr : best(options, fit, hopeless);
   if (!option) return std::nullopt;
   const LawOption finer = refineTerm(problem_, named_, fit, linear, there, *option, jobs_, limits_);
+  std::vector<LearnedLaw> begun;
+  for (const Law& law : {finer.law, option->law})
+    if (begun.empty() || law.terms.back().knots != begun[0].law.terms.back().knots)
+      begun.push_back(scored(fitted(damped(law, fit), fit, limits_.iterations), law));
+  std::ranges::stable_sort(begun, {}, [](const LearnedLaw& each) { return each.scored.mean(); });
+  const double most = limits_.inRace * begun[0].scored.mean();
   std::optional<LearnedLaw> learned;
-  for (const Law& law : {finer.law, option->law}) {
-    if (learned && law.terms.back().knots == learned->law.terms.back().knots) break;
-    LearnedLaw next = polished(damped(law, fit), fit);
-    if (learned && next.scored.mean() >= learned->scored.mean()) continue;
-    learned = std::move(next);
+  for (LearnedLaw& each : begun) {
+    if (each.scored.mean() > most) break;
+    LearnedLaw next = polished(std::move(each));
+    if (!learned || next.scored.mean() < learned->scored.mean()) learned = std::move(next);
   }
   // What few knots leave of a curve that bends much is seen only once they are where they belong. (Beside a first curve
   // a name is preferred to what a second one could follow so.)
@@ -137,7 +145,7 @@ std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, co
          learned->law.terms.back().knots < std::min(limits_.knots, mostLawKnots)) {
     const Law law = denserLaw(problem_, named_, learned->scored.fit, learned->linear, learned->law, jobs_, limits_);
     if (law.terms.back().knots <= learned->law.terms.back().knots) break;
-    LearnedLaw denser = polished(law, learned->scored.fit);
+    LearnedLaw denser = polished(scored(fitted(law, learned->scored.fit, limits_.iterations), law));
     if (denser.scored.mean() > limits_.settled * learned->scored.mean()) break;
     learned = std::move(denser);
   }
@@ -308,11 +316,11 @@ bool nameBesideLaw(const FitProblem& problem, SearchResult& found, LawBesideName
 }  // namespace
 
 std::optional<LearnedLaw> learnLaw(const FitProblem& problem, const Scored& without, const Linearised& linear, int jobs,
-                                   const SearchThresholds& thresholds) {
+                                   const SearchThresholds& thresholds, double hopeless) {
   const SearchThresholds::Law& limits = thresholds.law;
   if (excessOf(without) < limits.leastExcess || !canLearn(problem)) return std::nullopt;
   LawSearch search(problem, without.fit.model, jobs, thresholds);
-  auto law = search.extend({}, without.fit, linear);
+  auto law = search.extend({}, without.fit, linear, hopeless);
   if (!law || !passes(without, law->scored, limits.leastShare, search.looked(), limits) ||
       !holdsAtOtherSettings(problem, without.fit, law->scored.fit, limits.iterations))
     return std::nullopt;
@@ -333,7 +341,8 @@ LawBesideNames learnBesideNames(const FitProblem& problem, SearchResult& found, 
   result.law = learnLaw(problem, found.final, found.finalLinear, jobs, thresholds);
   if (!found.effects.empty()) {
     const auto bare = withoutEffects(problem, found, thresholds.law.iterations);
-    auto alone = learnLaw(problem, bare, linearise(problem, bare.fit), jobs, thresholds);
+    const double inReach = thresholds.law.standsAlone * thresholds.screening.hopeless * found.final.mean();
+    auto alone = learnLaw(problem, bare, linearise(problem, bare.fit), jobs, thresholds, inReach);
     if (alone && standsAlone(*alone, found, result, thresholds.law)) {
       while (!found.effects.empty()) {
         result.fell.push_back(found.effects.back().effect.text());

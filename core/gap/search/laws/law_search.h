@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,9 +25,11 @@ struct LearnedLaw {
 
 /// What no effect explains: a curve at one joint, chosen by cross-validation over trials, refined in replay, kept where
 /// a paired test says so among all that was looked at. Nothing where too little is left, or it has no shape, or the
-/// library does not know the effect. `linear`: of `without`.
+/// library does not know the effect. `linear`: of `without`. A curve that leaves more than `hopeless` (mean squared
+/// error) after its first fit is not fitted on.
 std::optional<LearnedLaw> learnLaw(const FitProblem& problem, const Scored& without, const Linearised& linear, int jobs,
-                                   const SearchThresholds& thresholds);
+                                   const SearchThresholds& thresholds,
+                                   double hopeless = std::numeric_limits<double>::infinity());
 
 /// What a law beside the named effects leaves of these.
 struct LawBesideNames {

@@ -10,6 +10,7 @@
 #include "core/gap/search/rivals/shown_sizes.h"
 #include "core/gap/search/screening/search_discoveries.h"
 #include "core/gap/search/siblings.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -187,15 +188,36 @@ Found RivalFinder::foundAt(std::size_t i, const Offered& offered, Selection& sel
   return found;
 }
 
-std::string RivalFinder::whereOthersAreFor(std::size_t i, const FitModel& model) const {
-  return isSibling(service_.problem().library, model.effects, i) ? model.effects[i].at : "";
+std::vector<std::size_t> RivalFinder::inOrder(const FitModel& model) const {
+  std::vector<std::size_t> order;
+  for (std::size_t i = model.effects.size(); i-- > 0;) order.push_back(i);
+  std::ranges::stable_partition(
+      order, [&](std::size_t i) { return !isSibling(service_.problem().library, model.effects, i); });
+  return order;
 }
 
-RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) {
+Eligible RivalFinder::eligibleFor(std::size_t i, const Scored& final,
+                                  const std::vector<std::optional<Found>>& found) const {
+  const EffectLibrary& library = service_.problem().library;
+  const std::vector<PlacedEffect>& effects = final.fit.model.effects;
+  if (!isSibling(library, effects, i)) return {};
+  const PlacedEffect& own = effects[i];
+  std::set<std::string> names;
+  const std::optional<Found>& first = found[siblingsOf(library, effects, i).front()];
+  require(first.has_value(), "what was found first is asked for first");
+  for (const GapReport::Rival& rival : first->rivals) names.insert(rival.effect);
+  if (excessOf(final) > service_.thresholds().screening.lastChanceExcess)
+    for (const EffectCandidate& other : service_.candidatesBeside(final.fit.model.without(i)))
+      if (isRicher(library, other, own) || isSimplerForm(library, other, own)) names.insert(other.effect);
+  return {own.at, std::move(names)};
+}
+
+RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final, const Eligible& eligible) {
   const FitModel& model = final.fit.model;
   if (model.effects.size() == 1) return {calibrated_, first_};
   const Scored without =
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
+  if (eligible.effects && eligible.effects->empty()) return {without, {}};
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
   const SearchThresholds& limits = service_.thresholds();
   const bool isShort = limits.shortRace.isRun(final.mean());
@@ -207,12 +229,13 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
                                     .from = 0.88,
                                     .to = 0.95,
                                     .hopeless = inReach * final.fit.cost,
-                                    .onlyAt = whereOthersAreFor(i, model),
+                                    .eligible = eligible,
+                                    .fewScreened = true,
                                     .shortRace = isShort});
   return {std::move(round.without), std::move(round.tried)};
 }
 
-RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final) {
+RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final, const Eligible& eligible) {
   std::set<std::string> beside;
   const auto& effects = final.fit.model.effects;
   for (std::size_t k = 0; k < effects.size(); ++k)
@@ -220,33 +243,41 @@ RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final)
   const auto [place, isNew] = known_.try_emplace(beside);
   Offered& offered = place->second;
   if (isNew) {
-    offered = inPlaceOf(i, final);
-    for (const HandedOver& arrived : handover_.handOver(i, final, whereOthersAreFor(i, final.fit.model)))
-      add(arrived, offered.others);
+    offered = inPlaceOf(i, final, eligible);
+    if (eligible.effects && eligible.effects->empty()) return offered;
+    for (const HandedOver& arrived : handover_.handOver(i, final, eligible)) add(arrived, offered.others);
   }
   return offered;
 }
 
 RivalSearch RivalFinder::find(Selection selection) {
-  std::vector<Found> effects;
   int replaced = 0;
   known_.clear();
-  for (std::size_t left = selection.final.fit.model.effects.size(); left > 0;) {
-    Offered& offered = offeredTo(left - 1, selection.final);
+  std::vector<std::optional<Found>> found;
+  std::vector<std::size_t> order;
+  const auto begin = [&] {
+    order = inOrder(selection.final.fit.model);
+    found.assign(order.size(), std::nullopt);
+  };
+  begin();
+  for (std::size_t k = 0; k < order.size();) {
+    const std::size_t i = order[k];
+    Offered& offered = offeredTo(i, selection.final, eligibleFor(i, selection.final, found));
     compareAtOneStep(selection, offered.others);
-    const PlacedEffect asked = selection.final.fit.model.effects[left - 1];
-    if (replaced < service_.thresholds().rivals.replaced && replace(left - 1, offered.others, selection)) {
+    const PlacedEffect asked = selection.final.fit.model.effects[i];
+    if (replaced < service_.thresholds().rivals.replaced && replace(i, offered.others, selection)) {
       replaceSiblings(service_, selection, asked);
       confirmer_.settle(selection, true, "rivals", 0.95);
       ++replaced;
-      left = selection.final.fit.model.effects.size();
-      effects.clear();
+      begin();
+      k = 0;
     } else {
-      --left;
-      effects.push_back(foundAt(left, offered, selection));
+      found[i] = foundAt(i, offered, selection);
+      ++k;
     }
   }
-  std::ranges::reverse(effects);
+  std::vector<Found> effects;
+  for (std::optional<Found>& each : found) effects.push_back(std::move(*each));
   return {std::move(selection), std::move(effects)};
 }
 

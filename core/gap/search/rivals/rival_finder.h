@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,8 +35,9 @@ class RivalFinder {
         calibrated_(calibrated),
         first_(first) {}
 
-  /// Rivals of each effect beside the others, the last found first: it is the least sure. Where one is replaced, all
-  /// are asked beside what stands there now.
+  /// Rivals of each effect beside the others, the last found first: it is the least sure. The same effect at other
+  /// joints comes after the one that was found first, as it is asked for less. Where one is replaced, all are asked
+  /// beside what stands there now.
   RivalSearch find(Selection selection);
 
  private:
@@ -46,10 +48,13 @@ class RivalFinder {
   };
   /// What was offered the place of effect `i`: looked for once, and offered again to whatever has taken the place
   /// since.
-  Offered& offeredTo(std::size_t i, const Scored& final);
-  /// At its own joint alone where the same effect stands at another one, which was asked about all places; else "".
-  std::string whereOthersAreFor(std::size_t i, const FitModel& model) const;
-  Offered inPlaceOf(std::size_t i, const Scored& final);
+  Offered& offeredTo(std::size_t i, const Scored& final, const Eligible& eligible);
+  Offered inPlaceOf(std::size_t i, const Scored& final, const Eligible& eligible);
+  /// All, but for an effect that stands at another joint, too, which was asked before (`found`): what is a rival there
+  /// and, where something is left that a better law may take, richer and simpler forms of it, at its own joint.
+  Eligible eligibleFor(std::size_t i, const Scored& final, const std::vector<std::optional<Found>>& found) const;
+  /// The effects of a model in the order in which they are asked for.
+  std::vector<std::size_t> inOrder(const FitModel& model) const;
   void add(const HandedOver& arrived, std::vector<TriedCandidate>& others) const;
   /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
   /// them needed.

@@ -32,15 +32,14 @@ struct RivalHandover::Way {
 
 /// Where the ways begin: what does best in the place of the part of effect `i` that is taken away first.
 std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own,
-                                                        const std::string& onlyAt, bool muchLeft) const {
+                                                        const Eligible& eligible, bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const std::size_t handedTo = muchLeft ? race.handedTo : limits.handedTo;
   const FitProblem& problem = service_.problem();
   std::vector<EffectCandidate> candidates = service_.candidatesBeside(base.model);
-  std::erase_if(candidates, [&](const EffectCandidate& c) {
-    return isRicher(problem.library, c, own) || (!onlyAt.empty() && c.at != onlyAt);
-  });
+  std::erase_if(candidates,
+                [&](const EffectCandidate& c) { return isRicher(problem.library, c, own) || !eligible(c); });
   // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
   // smaller friction but another motion.
   const auto isSimpler = [&](const EffectCandidate& candidate) {
@@ -49,10 +48,9 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
   for (EffectCandidate& candidate : candidates)
     if (!isSimpler(candidate))
       for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, limits.small);
-  std::vector<Screened> promising =
-      screen(problem, base, linearise(problem, base), candidates, service_.options().jobs,
-             service_.reporter("screening, rivals", candidates.size(), 0.95, 0.95),
-             muchLeft ? race.of(service_.thresholds().screening) : service_.thresholds().screening);
+  std::vector<Screened> promising = screen(problem, base, linearise(problem, base), candidates, service_.options().jobs,
+                                           service_.reporter("screening, rivals", candidates.size(), 0.95, 0.95),
+                                           limits.of(service_.thresholds().screening));
   std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
   const auto promised = [](const Screened& each) { return each.starts[0].share; };
   std::ranges::stable_sort(promising, std::greater(), promised);
@@ -120,7 +118,7 @@ void RivalHandover::keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCand
   offered = std::move(ofLeft);
 }
 
-std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& final, const std::string& onlyAt) {
+std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& final, const Eligible& eligible) {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const auto& kept = limits.kept;
   const FitProblem& problem = service_.problem();
@@ -141,7 +139,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
   const double onTheWay = finalCost * (muchLeft ? race.valley : limits.valley);
   const double atItsEnd = finalCost * (muchLeft ? race.valleyEnd : limits.valleyEnd);
 
-  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, onlyAt, muchLeft);
+  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, eligible, muchLeft);
   for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {
     // Straight on from the last two steps.
     const double on = k == 0 ? 0 : (kept[k - 1] - kept[k]) / ((k == 1 ? 1 : kept[k - 2]) - kept[k - 1]);
@@ -172,7 +170,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
     jobs.push_back({way.fit.model, way.fit.shifts});
   }
   for (const EffectCandidate& candidate : service_.candidatesBeside(rest)) {
-    if (!isSimplerForm(problem.library, candidate, own) || candidate.variants.empty()) continue;
+    if (!isSimplerForm(problem.library, candidate, own) || !eligible(candidate) || candidate.variants.empty()) continue;
     offered.push_back(candidate);
     jobs.push_back({simplerFormOf(whole, rest, candidate, muchLeft), whole.shifts});
   }

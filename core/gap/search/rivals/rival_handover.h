@@ -26,12 +26,12 @@ class RivalHandover {
   explicit RivalHandover(FitService& service) : service_(service) {}
 
   /// What the recordings may not distinguish from effect `i` of a model, or find better: its size is taken away in
-  /// steps, and at each what is offered its place is fitted on. `onlyAt`: see CandidateSearch::Request.
-  std::vector<HandedOver> handOver(std::size_t i, const Scored& final, const std::string& onlyAt);
+  /// steps, and at each what is offered its place is fitted on. Only what is `eligible`.
+  std::vector<HandedOver> handOver(std::size_t i, const Scored& final, const Eligible& eligible);
 
  private:
   struct Way;
-  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own, const std::string& onlyAt,
+  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own, const Eligible& eligible,
                             bool muchLeft) const;
   FitModel simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate, bool muchLeft) const;
 

@@ -29,9 +29,9 @@ Round CandidateSearch::search(const Request& request) {
   const double judged_s = step.before_s();
   const Linearised* known = service_.step_s() == judged_s ? request.known : nullptr;
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
-  const SearchThresholds::Screening ofThese = request.shortRace ? race.of(limits) : limits;
+  const SearchThresholds::Screening ofThese = request.fewScreened ? service_.thresholds().rivals.of(limits) : limits;
   Screening screening =
-      screener_.screenBeside(request.models, request.onlyAt, known, ofThese, request.stage, from, from + part);
+      screener_.screenBeside(request.models, request.eligible, known, ofThese, request.stage, from, from + part);
   screener_.fitPromising(screening, request.toFit, !request.shortRace, request.stage, from + part, from + 2 * part);
   std::vector<TriedCandidate>& tried = screening.tried;
   const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && race.isRun(service_.leftBy(tried[0].fit));

@@ -34,10 +34,11 @@ class CandidateSearch {
     std::string stage{};                                        ///< ends its name in the progress
     double from = 0, to = 1;                                    ///< shares of the search
     double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
-    bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
-    bool beyondBest = false;  ///< where the best leaves much, others that promise about as much are fitted, too
-    std::string onlyAt{};     ///< the one place where candidates may be; empty: anywhere
-    bool shortRace = false;   ///< few are screened in full, none is begun again in windows
+    bool lastChance = false;   ///< all that promise anything are fitted before none is said to help
+    bool beyondBest = false;   ///< where the best leaves much, others that promise about as much are fitted, too
+    Eligible eligible{};       ///< what is looked at
+    bool fewScreened = false;  ///< in full, after a first look at all: what may take the place of an effect
+    bool shortRace = false;    ///< none is begun again in windows
   };
   /// Where something passes that needs a finer step, that step stays.
   Round search(const Request& request);

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,16 @@ struct EffectCandidate {
 
   PlacedEffect placed(const Values& values) const { return {effect, at, values}; }
   std::string text() const { return effect + " at " + at; }
+};
+
+/// Which candidates are looked at: all of them, or those at one place, or of some effects there.
+struct Eligible {
+  std::string at{};                                ///< the one place; empty: any
+  std::optional<std::set<std::string>> effects{};  ///< nothing: all
+
+  bool operator()(const EffectCandidate& candidate) const {
+    return (at.empty() || candidate.at == at) && (!effects || effects->contains(candidate.effect));
+  }
 };
 
 /// All effects of the library (or of `names`, if it is not empty) at all places of a scene, without those that are

@@ -88,14 +88,14 @@ std::string reasonOf(const Promise& promise) {
 
 }  // namespace
 
-Screening Screener::screenBeside(const std::vector<Fit>& models, const std::string& onlyAt, const Linearised* known,
+Screening Screener::screenBeside(const std::vector<Fit>& models, const Eligible& eligible, const Linearised* known,
                                  const SearchThresholds::Screening& limits, const std::string& stage, double from,
                                  double to) const {
   Screening screening;
   for (const Fit& fit : models)
     screening.bases.push_back({fit, known && screening.bases.empty() ? *known : linearise(service_.problem(), fit)});
   std::vector<EffectCandidate> candidates = service_.candidatesBeside(screening.bases[0].fit.model);
-  if (!onlyAt.empty()) std::erase_if(candidates, [&](const EffectCandidate& c) { return c.at != onlyAt; });
+  std::erase_if(candidates, [&](const EffectCandidate& c) { return !eligible(c); });
   std::vector<std::vector<Screened>> screened;
   std::vector<double> totals;
   const double part = to - from;

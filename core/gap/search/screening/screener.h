@@ -50,9 +50,8 @@ class Screener {
   /// Keeps a reference.
   explicit Screener(const FitService& service) : service_(service) {}
 
-  /// Linear screening beside any of the models. `onlyAt`: of what may be there, unless it is empty. `known`:
-  /// sensitivities of the first at the present step, or nothing.
-  Screening screenBeside(const std::vector<Fit>& models, const std::string& onlyAt, const Linearised* known,
+  /// Linear screening beside any of the models. `known`: sensitivities of the first at the present step, or nothing.
+  Screening screenBeside(const std::vector<Fit>& models, const Eligible& eligible, const Linearised* known,
                          const SearchThresholds::Screening& limits, const std::string& stage, double from,
                          double to) const;
   /// First fits of up to `toFit` that promise most, each from its best start, the better half and what those contain

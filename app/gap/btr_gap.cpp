@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -27,6 +28,8 @@
 #include "core/gap/search/analysis.h"
 #include "core/gap/search/gap_report.h"
 #include "core/sim/worker_pool.h"
+#include "core/spec/error.h"
+#include "core/spec/parameter.h"
 #include "core/spec/system/cancelled.h"
 
 namespace btr::cli {
@@ -81,6 +84,12 @@ long jobsOf(const std::vector<PlaceReport>& places) {
                          [](long sum, const PlaceReport& place) { return sum + place.jobs; });
 }
 
+/// True from so many seconds after now on.
+std::function<bool()> after(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  return [end] { return std::chrono::steady_clock::now() >= end; };
+}
+
 /// Of one of several ranks: rank 0 hands out the work and prints, the others return when it lets them.
 void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFile, ProgressLine& progress,
                     Shell& shell) {
@@ -127,13 +136,26 @@ void analyseHere(AnalysisRequest request, const std::string& placesFile, Progres
   std::cout << (shell.json ? toJsonText(report) : toPlainText(report));
 }
 
-void analyseCommand(const AnalysisRequest& request, const std::string& places, bool lines, Shell& shell) {
-  ProgressLine progress(shell, lines);
+struct AnalyseArguments {
+  AnalysisRequest request;
+  std::string places;
+  double within_s = 0;  ///< 0: as long as it takes
+  bool lines = false;
+};
+
+void analyseCommand(const AnalyseArguments& asked, Shell& shell) {
+  ProgressLine progress(shell, asked.lines);
+  const bool isShared = launchOfThisProcess().size > 1;
+  // Ranks decide alike at every step; no two clocks do.
+  if (isShared && asked.within_s > 0)
+    throw InputError("--within " + toText(asked.within_s), "several ranks", "one process, or no limit of time");
+  AnalysisRequest request = asked.request;
+  if (asked.within_s > 0) request.options.isEnough = after(asked.within_s);
   try {
-    if (launchOfThisProcess().size > 1)
-      analyseOnRanks(request, places, progress, shell);
+    if (isShared)
+      analyseOnRanks(request, asked.places, progress, shell);
     else
-      analyseHere(request, places, progress, shell);
+      analyseHere(request, asked.places, progress, shell);
   } catch (const Cancelled&) {
     progress.end();
     std::fprintf(stderr, "stopped; nothing was written\n");
@@ -142,9 +164,8 @@ void analyseCommand(const AnalysisRequest& request, const std::string& places, b
 }
 
 void addAnalyse(CLI::App& gap, Shell& shell) {
-  auto request = std::make_shared<AnalysisRequest>();
-  auto lines = std::make_shared<bool>(false);
-  auto places = std::make_shared<std::string>();
+  auto asked = std::make_shared<AnalyseArguments>();
+  AnalysisRequest* const request = &asked->request;
   request->options.jobs = 0;
   CLI::App* analyse = gap.add_subcommand("analyse", "find the physics that the simulator left out");
   analyse->add_option("SCENE.json", request->scene, "scene file; its \"calibrate\" list is what a fit may change")
@@ -171,9 +192,14 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
       ->transform(wholeNumber(0, 8));
   analyse->add_flag("--as-recorded", request->options.asRecorded,
                     "go on although a column is certainly not what its name says");
-  analyse->add_flag("--progress", *lines, "a line STAGE SHARE on standard error at every step");
-  addPlacesOption(analyse, *places);
-  analyse->callback([request, lines, places, &shell] { analyseCommand(*request, *places, *lines, shell); });
+  constexpr double longest_s = 1e6;
+  analyse
+      ->add_option("--within", asked->within_s,
+                   "seconds after which nothing more is looked for; the report has what was found until then")
+      ->transform(decimalNumber(1, longest_s));
+  analyse->add_flag("--progress", asked->lines, "a line STAGE SHARE on standard error at every step");
+  addPlacesOption(analyse, asked->places);
+  analyse->callback([asked, &shell] { analyseCommand(*asked, shell); });
 }
 
 void predictCommand(const PredictRequest& request, Shell& shell) try {

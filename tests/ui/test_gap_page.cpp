@@ -11,6 +11,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -701,6 +702,8 @@ class TestGapPage : public QObject {
     // The scene's own mapping is in the form.
     QVERIFY(setup.mapping().file().endsWith("xl330.mapping.json"));
     QVERIFY(setup.mapping().isValid());
+    setup.findChild<QSpinBox*>("within")->setValue(3);
+    QVERIFY(argumentsOf(setup.job()).join(' ').contains("--within 180 "));
     setup.findChild<QLineEdit*>("seed")->setText("-1");
     QVERIFY(setup.problem().contains("-1 is not allowed"));
   }

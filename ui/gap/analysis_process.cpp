@@ -9,6 +9,8 @@ QStringList argumentsOf(const AnalysisJob& job) {
   if (!job.mapping.isEmpty()) arguments << "--mapping" << job.mapping;
   if (!job.simulator.isEmpty()) arguments << "--simulator" << job.simulator;
   if (job.jobs > 0) arguments << "--jobs" << QString::number(job.jobs);
+  constexpr int minute_s = 60;
+  if (job.within_min > 0) arguments << "--within" << QString::number(minute_s * job.within_min);
   if (job.asRecorded) arguments << "--as-recorded";
   return arguments << "--seed" << QString::number(job.seed) << "--out" << job.out << "--progress";
 }

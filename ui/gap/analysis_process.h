@@ -12,6 +12,7 @@ struct AnalysisJob {
   QString mapping, simulator, out;  ///< empty: none; out is needed
   int jobs = 0;                     ///< 0: as the program decides
   quint64 seed = 1;
+  int within_min = 0;       ///< minutes after which it comes to its end, 0: it takes its time
   bool asRecorded = false;  ///< whatever the doctor is certain of
   bool operator==(const AnalysisJob&) const = default;
 };

@@ -11,6 +11,7 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -194,6 +195,14 @@ QWidget* AnalysisSetup::makeInputs() {
                                               if (!chosen.isEmpty()) out_->setText(chosen);
                                             })));
   form->addRow(tr("See&d"), seed_);
+  constexpr int longest_min = 24 * 60;
+  within_ = new QSpinBox(inputs);
+  within_->setObjectName("within");
+  within_->setRange(0, longest_min);
+  within_->setSuffix(tr(" min"));
+  within_->setSpecialValueText(tr("none"));
+  within_->setToolTip(tr("After this time nothing more is looked for; the report has what was found until then"));
+  form->addRow(tr("Time li&mit"), within_);
   connect(scene_, &QLineEdit::editingFinished, this, &AnalysisSetup::readScene);
   for (QLineEdit* edit : {scene_, out_, seed_}) connect(edit, &QLineEdit::textChanged, this, [this] { refresh(); });
   connect(recordings_, &QTableWidget::currentCellChanged, this, [this](int now, int, int before, int) {
@@ -324,6 +333,7 @@ AnalysisJob AnalysisSetup::job() const {
   job.heldOut = files(true);
   job.out = out_->text().trimmed();
   job.seed = seed_->text().trimmed().toULongLong();
+  job.within_min = within_->value();
   job.asRecorded = certain_ && asRecorded_->isChecked();
   return job;
 }

@@ -15,6 +15,7 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
+class QSpinBox;
 class QTableWidget;
 
 namespace btr::ui {
@@ -87,6 +88,7 @@ class AnalysisSetup : public QWidget {
   RecordingPlot* looks_;
   QPushButton* example_;
   QLabel *problem_, *doctorSays_;
+  QSpinBox* within_;
   QCheckBox* asRecorded_;
   QProgressBar* progress_;
   QPushButton *start_, *cancel_;

@@ -9,11 +9,18 @@ namespace btr {
 namespace {
 
 thread_local Interruptible* innermost = nullptr;
+thread_local int unfinished = 0;  ///< calls of unlessEnough
+
+/// Ends the work of the innermost of those.
+struct Enough {};
 
 }  // namespace
 
-Interruptible::Interruptible(std::function<bool()> goesOn)
-    : goesOn_(std::move(goesOn)), outer_(innermost), asked_(std::chrono::steady_clock::now()) {
+Interruptible::Interruptible(std::function<bool()> goesOn, std::function<bool()> isEnough)
+    : goesOn_(std::move(goesOn)),
+      isEnough_(std::move(isEnough)),
+      outer_(innermost),
+      asked_(std::chrono::steady_clock::now()) {
   innermost = this;
 }
 
@@ -26,6 +33,22 @@ void Interruptible::ask() {
   if (now - innermost->asked_ < between) return;
   innermost->asked_ = now;
   if (!innermost->goesOn_()) throw Cancelled{};
+  if (unfinished > 0 && innermost->isEnough_ && innermost->isEnough_()) throw Enough{};
+}
+
+bool unlessEnough(const std::function<void()>& work) {
+  struct Depth {
+    Depth() { ++unfinished; }
+    ~Depth() { --unfinished; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+  } const depth;
+  try {
+    work();
+    return true;
+  } catch (const Enough&) {
+    return false;
+  }
 }
 
 }  // namespace btr

@@ -9,7 +9,8 @@ namespace btr {
 /// Worker processes do not ask: whoever waits for them does. The innermost counts. Changes no result.
 class Interruptible {
  public:
-  explicit Interruptible(std::function<bool()> goesOn);
+  /// `isEnough`: asked with it; see unlessEnough.
+  explicit Interruptible(std::function<bool()> goesOn, std::function<bool()> isEnough = {});
   ~Interruptible();
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;
@@ -18,9 +19,13 @@ class Interruptible {
   static void ask();
 
  private:
-  std::function<bool()> goesOn_;
+  std::function<bool()> goesOn_, isEnough_;
   Interruptible* outer_;
   std::chrono::steady_clock::time_point asked_;
 };
+
+/// Does work that is worth having unfinished. Where the innermost Interruptible says that it is enough, the work ends
+/// there, and with it all that was begun in this call; false then. (Elsewhere that is not asked.)
+bool unlessEnough(const std::function<void()>& work);
 
 }  // namespace btr

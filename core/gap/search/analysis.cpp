@@ -234,7 +234,13 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     share = at;
     return !tell || tell(stage, share);
   };
-  const Interruptible interruptible([&] { return progress(stage, share); });
+  std::string cutWhile;
+  const auto isEnough = [&] {
+    if (!options.isEnough || !options.isEnough()) return false;
+    cutWhile = stage;
+    return true;
+  };
+  const Interruptible interruptible([&] { return progress(stage, share); }, isEnough);
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
   refuseUnknownEffects(options, library);
   const SearchThresholds& limits = options.thresholds;
@@ -316,12 +322,22 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.located = locate(found.calibrated.fit.model, problem, limits.location);
   if (!progress("looking at what remains", 0.97)) throw Cancelled{};
   if (law.law) addLaw(report, problem, *law.law, found);
-  if (options.learnRest && !law.applies) report.remainder = findRemainder(problem, found, options.jobs, limits);
-  const bool curveIsBetter = !law.applies && aCurveDoesBetter(problem, found, options.jobs, limits);
+  const bool isWhole = !found.cutShort;
+  if (options.learnRest && isWhole && !law.applies)
+    report.remainder = findRemainder(problem, found, options.jobs, limits);
+  const bool curveIsBetter = isWhole && !law.applies && aCurveDoesBetter(problem, found, options.jobs, limits);
   if (options.designNext) report.next = designNext(problem, found, options.seed, limits.nextRecording);
   judge(report, problem, found, curveIsBetter, limits);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   restNothingOnFaults(report);
+  if (!isWhole) {
+    const double after_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.notes.insert(report.notes.begin(),
+                        "cut short after " + digits(after_s, 2) + " s, as was asked for, while " + cutWhile +
+                            ": other effects, rivals of these and curves were not looked for from there on");
+    report.sentence =
+        "The analysis was cut short (see the notes): more may be missing than is named. " + report.sentence;
+  }
   report.sentence = consultation.caveat + report.sentence;
   if (std::string text = textOf(agreement.told, given.recordings.size()); !text.empty()) {
     text.pop_back();

@@ -18,6 +18,9 @@ struct AnalysisOptions {
   /// Step 9: what named effects leave as a curve. It takes longer than all else on a floor; without it no verdict knows
   /// whether the rest has a shape.
   bool learnRest = true;
+  /// Asked as progress is. Once it is true nothing more is looked for, and what was found is the report; nothing:
+  /// never. The result depends on when.
+  std::function<bool()> isEnough{};
   bool asRecorded = false;        ///< goes on where the doctor is certain that a column is not what its name says
   SearchThresholds thresholds{};  ///< of every decision on the way
 };

@@ -127,6 +127,7 @@ Explanation explainWithCommands(GapProblem& problem, const MadeReady& ready, con
   Explanation made = explain(problem.recordings, ready, search, learnRest);
   for (int round = 0; round < rounds; ++round) {
     const Scored& found = made.found.final;
+    if (made.found.cutShort) break;
     if (made.found.effects.empty() && found.mean() <= search.thresholds.verdict.stillNoise) break;
     const Asked best = Asking(made.problem, open, search).best({ahead, found});
     if (!takesMost(found, best.scored, search.thresholds.confirmation)) break;

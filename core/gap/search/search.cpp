@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/interruptible.h"
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/calibrator.h"
@@ -66,6 +67,8 @@ class StructureSearch {
   Round nextRound(int stage);
   /// Which of them is accepted; the others that pass say so.
   std::optional<std::size_t> winnerOf(std::vector<TriedCandidate>& tried) const;
+  /// The effects of the selected model without rivals, judged as when they came in.
+  std::vector<Found> asTheyCame() const;
   /// Uncertainties of the rivals' fits.
   void measureRivals(std::vector<Found>& effects) const;
 
@@ -237,6 +240,19 @@ std::vector<Found> StructureSearch::findRivals() {
   }
 }
 
+std::vector<Found> StructureSearch::asTheyCame() const {
+  std::vector<Found> found;
+  for (const PlacedEffect& effect : selection_.final.fit.model.effects) {
+    found.push_back({effect, {}, 1, {}, {}, {}});
+    for (const Attempt& attempt : selection_.attempts) {
+      if (attempt.candidate.text() != effect.text() || !attempt.accepted) continue;
+      found.back().comparison = attempt.comparison;
+      if (std::isfinite(attempt.qValue)) found.back().qValue = attempt.qValue;
+    }
+  }
+  return found;
+}
+
 void StructureSearch::measureRivals(std::vector<Found>& effects) const {
   for (Found& found : effects)
     for (const Fit& rival : found.rivalFits) {
@@ -257,11 +273,22 @@ SearchResult StructureSearch::run() {
     return result;
   }
   beginFrom(calibration);
-  addEffects(0);
-  reduce();
-  if (takeApart(service_, selection_, calibration_.calibrated)) refine();
-  dropRedundant(service_, selection_, calibration_.calibrated);
-  std::vector<Found> effects = findRivals();
+  bool isWhole = unlessEnough([&] {
+    addEffects(0);
+    reduce();
+    if (takeApart(service_, selection_, calibration_.calibrated)) refine();
+    dropRedundant(service_, selection_, calibration_.calibrated);
+  });
+  std::vector<Found> effects;
+  if (isWhole) {
+    const Selection before = selection_;
+    isWhole = unlessEnough([&] { effects = findRivals(); });
+    if (!isWhole) selection_ = before;
+  }
+  if (!isWhole) {
+    confirmer_.settle(selection_, false, "coming to an end", 0.9);
+    effects = asTheyCame();
+  }
 
   raiseUnreached(service_, selection_.final.fit);
   Measurement measured = measure(service_, selection_.final.fit);
@@ -282,6 +309,7 @@ SearchResult StructureSearch::run() {
   result.attempts = std::move(selection_.attempts);
   result.ladder = std::move(selection_.ladder);
   result.effects = std::move(effects);
+  result.cutShort = !isWhole;
   result.stepChange = std::move(measured.stepChange);
   result.finalLinear = std::move(measured.linear);
   result.finalUncertainty = std::move(measured.uncertainty);

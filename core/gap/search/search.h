@@ -61,6 +61,7 @@ struct SearchResult {
   double step_s = 0;                 ///< of the final fits [s]
   Eigen::VectorXd stepChange;        ///< of the final simulator's residuals with half that step
   std::vector<std::string> refused;  ///< what was left out, counted (refused_jobs.h)
+  bool cutShort = false;             ///< whoever waits had enough: no more was looked for, nor rivals
   bool unstable = false;             ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 

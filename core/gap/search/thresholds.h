@@ -329,8 +329,6 @@ struct SearchThresholds {
     double ofBest = 0.5;         ///< as much as this of the best [hand]
     int firstIterations = 4;     ///< of these fits [time]
     int iterations = 10;         ///< of the best one's [time]
-    double inRace = 4;           ///< by error after these, of the better of few and of many knots: more, and it is left
-                                 ///< [time]
     int polishings = 3;          ///< as many again, at most, while they help [time]
     double settled = 0.9;        ///< of the error before: as many iterations that leave more are the last [hand]
     double leastT = 3;           ///< paired over blocks, against without it [prototype]

@@ -317,6 +317,28 @@ TEST(Analysis, CanBeCancelledAtAnyStage) {
   }
 }
 
+TEST(Analysis, ReportsWhatWasFoundWhereItIsCutShort) {
+  const GapProblem problem = recordedFrom({{}, {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.08}}}}});
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "command_delay"};
+  options.isEnough = [] { return true; };
+  const GapReport atOnce = analyse(problem, library(), options);
+  EXPECT_THAT(namesOf(atOnce), testing::IsEmpty());
+  EXPECT_THAT(atOnce.sentence, HasSubstr("cut short")) << "nothing is said to be missing, or not to be";
+
+  // From the first look at rivals on.
+  bool isEnough = false;
+  options.isEnough = [&] { return isEnough; };
+  const GapReport later = analyse(problem, library(), options, [&](const std::string& stage, double) {
+    isEnough = isEnough || stage.find("rivals") != std::string::npos || stage == "measuring what has no name";
+    return true;
+  });
+  ASSERT_THAT(namesOf(later), testing::ElementsAre("coulomb_friction at rig.hinge")) << toPlainText(later);
+  const auto found = std::ranges::find_if(later.tried, &GapReport::Effect::accepted);
+  EXPECT_NEAR(found->parameters[0].value, 0.08, 0.004);
+  EXPECT_LT(found->pValue, 0.01);
+}
+
 TEST(Analysis, ALongFitSaysHowFarItIs) {
   std::vector<double> shares;
   analyse(recordedFrom({{{"robots.rig.servos.hinge.p", 7}, {"robots.rig.servos.hinge.d", 0.25}}, {}}), library(), {},

@@ -95,13 +95,15 @@ class SwungArm {
       }
       Three given = Three::Zero();
       for (long k = 0; k < per; ++k) {
-        given += servoTorque(q, rate, held) / static_cast<double>(per);
+        const Three begun = servoTorque(q, rate, held);
         if (arm_.euler_s > 0) {
           rate += h * change(q, rate, held);
           q += h * rate;
         } else {
           rungeKutta(q, rate, held, h);
         }
+        // Its mean, by trapezia: what is taken at the beginning of each step alone is p·h/2 times the rate too large.
+        given += (begun + servoTorque(q, rate, held)) / 2 / static_cast<double>(per);
       }
       // What was given around the row: half of it before, half after.
       if (row == 0) before = given;

@@ -127,16 +127,10 @@ std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, co
   const LawOption* option = options.empty() ? nullptr : best(options, fit, hopeless);
   if (!option) return std::nullopt;
   const LawOption finer = refineTerm(problem_, named_, fit, linear, there, *option, jobs_, limits_);
-  std::vector<LearnedLaw> begun;
-  for (const Law& law : {finer.law, option->law})
-    if (begun.empty() || law.terms.back().knots != begun[0].law.terms.back().knots)
-      begun.push_back(scored(fitted(damped(law, fit), fit, limits_.iterations), law));
-  std::ranges::stable_sort(begun, {}, [](const LearnedLaw& each) { return each.scored.mean(); });
-  const double most = limits_.inRace * begun[0].scored.mean();
   std::optional<LearnedLaw> learned;
-  for (LearnedLaw& each : begun) {
-    if (each.scored.mean() > most) break;
-    LearnedLaw next = polished(std::move(each));
+  for (const Law& law : {finer.law, option->law}) {
+    if (learned && law.terms.back().knots == learned->law.terms.back().knots) break;
+    LearnedLaw next = polished(scored(fitted(damped(law, fit), fit, limits_.iterations), law));
     if (!learned || next.scored.mean() < learned->scored.mean()) learned = std::move(next);
   }
   // What few knots leave of a curve that bends much is seen only once they are where they belong. (Beside a first curve

@@ -205,6 +205,7 @@ std::string toJsonText(const GapReport& report) {
     document["trials"].push_back(toJson(report.trials[i], "overlay/" + overlayFileName(report, i)));
   for (const GapReport::Disagreement& d : report.disagreements) document["disagreeing_trials"].push_back(toJson(d));
   document["strong_correlations"] = report.strongCorrelations;
+  if (report.cutShort) document["cut_short"] = true;
   document["notes"] = report.notes;
   document["simulator_before"] = simulatorOf(report.before);
   document["simulator_after"] = simulatorOf(report.after);

@@ -28,6 +28,7 @@ std::string findingHeadline(const GapReport& report) {
   constexpr std::size_t mostNamed = 3;
   const auto findings = findingsOf(report);
   const bool named = report.verdict == Verdict::missingPhysics || report.verdict == Verdict::partlyExplained;
+  if (report.cutShort && report.verdict == Verdict::unexplained) return "Cut short before it was found what is missing";
   if (!named || findings.empty()) return headline(report.verdict);
   std::vector<std::string> names;
   for (const auto& finding : findings)
@@ -166,6 +167,7 @@ void addNext(ReportLead& lead, const GapReport& report) {
   const auto say = [&](const std::string& text) {
     if (!text.empty()) lead.next.push_back(text);
   };
+  if (report.cutShort) say("Analyse again with more time: other effects and rivals were not looked for to the end.");
   switch (report.verdict) {
     case Verdict::notExcited:
       say(report.nextStep.empty() ? "Record larger and faster motions, with reversals, then analyse again."

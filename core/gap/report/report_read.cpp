@@ -298,6 +298,7 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
         throw InputError(place + " /located " + located.channel, "trial " + std::to_string(window.recording),
                          "below " + std::to_string(report.trials.size()));
   report.strongCorrelations = r.texts("strong_correlations");
+  report.cutShort = r.flag("cut_short", false);
   report.notes = r.texts("notes");
   report.before = simulatorOf(r.object("simulator_before"));
   report.after = simulatorOf(r.object("simulator_after"));

@@ -327,6 +327,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     report.remainder = findRemainder(problem, found, options.jobs, limits);
   const bool curveIsBetter = isWhole && !law.applies && aCurveDoesBetter(problem, found, options.jobs, limits);
   if (options.designNext) report.next = designNext(problem, found, options.seed, limits.nextRecording);
+  report.cutShort = !isWhole;
   judge(report, problem, found, curveIsBetter, limits);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   restNothingOnFaults(report);

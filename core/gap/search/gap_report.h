@@ -169,6 +169,7 @@ struct GapReport {
   double explainedShare = std::numeric_limits<double>::quiet_NaN();
   std::vector<Disagreement> disagreements;
   NextRecording next;
+  bool cutShort = false;           ///< AnalysisOptions::isEnough: more may be missing than is named
   std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
   /// As given; calibrated with the accepted effects. The same where the verdict leaves nothing to adopt.
   SimulatorSpec before, after;

@@ -326,7 +326,8 @@ void judgeUnexplained(GapReport& report, const Findings& e, const SearchThreshol
   else
     report.sentence =
         (e.named ? first : "Other numbers explain " + ofGivenText(report) + ". ") + whereText(report) + errorText(e) +
-        "No effect of the library explains what is missing" +
+        (report.cutShort ? "No effect that was looked at until then explains what is missing"
+                         : "No effect of the library explains what is missing") +
         (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". " +
         lawText(report);
 }

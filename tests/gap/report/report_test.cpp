@@ -60,7 +60,8 @@ TEST(Figures, OfManyDigitsAreRoundedAndNotWrittenWithPowersOfTen) {
 
 TEST(GapReport, ComesBackWholeFromItsFolder) {
   const TemporaryFolder folder;
-  const GapReport written = sampleReport();
+  GapReport written = sampleReport();
+  written.cutShort = true;
   writeReport(written, folder.file("a/report"));
   const GapReport read = loadReport(folder.file("a/report"));
 
@@ -80,6 +81,7 @@ TEST(GapReport, ComesBackWholeFromItsFolder) {
   EXPECT_EQ(read.before, written.before);
   EXPECT_EQ(read.after, written.after);
   EXPECT_EQ(read.seed, written.seed);
+  EXPECT_TRUE(read.cutShort);
 }
 
 TEST(GapReport, KeepsTheOrderOfNumbersAndChannels) {

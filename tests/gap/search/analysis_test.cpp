@@ -14,6 +14,7 @@
 #include "core/gap/fit/score.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/report/report_json.h"
+#include "core/gap/report/report_lead.h"
 #include "core/gap/report/report_plain.h"
 #include "core/gap/report/run_analysis.h"
 #include "core/gap/search/gap_report.h"
@@ -325,6 +326,8 @@ TEST(Analysis, ReportsWhatWasFoundWhereItIsCutShort) {
   const GapReport atOnce = analyse(problem, library(), options);
   EXPECT_THAT(namesOf(atOnce), testing::IsEmpty());
   EXPECT_THAT(atOnce.sentence, HasSubstr("cut short")) << "nothing is said to be missing, or not to be";
+  EXPECT_THAT(atOnce.sentence, HasSubstr("No effect that was looked at until then"));
+  EXPECT_THAT(leadOf(atOnce).headline, HasSubstr("Cut short"));
 
   // From the first look at rivals on.
   bool isEnough = false;

@@ -202,7 +202,7 @@ QWidget* AnalysisSetup::makeInputs() {
   within_->setSuffix(tr(" min"));
   within_->setSpecialValueText(tr("none"));
   within_->setToolTip(tr("After this time nothing more is looked for; the report has what was found until then"));
-  form->addRow(tr("Time li&mit"), within_);
+  form->addRow(tr("Ma&x. time"), within_);
   connect(scene_, &QLineEdit::editingFinished, this, &AnalysisSetup::readScene);
   for (QLineEdit* edit : {scene_, out_, seed_}) connect(edit, &QLineEdit::textChanged, this, [this] { refresh(); });
   connect(recordings_, &QTableWidget::currentCellChanged, this, [this](int now, int, int before, int) {

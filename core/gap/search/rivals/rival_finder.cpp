@@ -191,8 +191,8 @@ Found RivalFinder::foundAt(std::size_t i, const Offered& offered, Selection& sel
 std::vector<std::size_t> RivalFinder::inOrder(const FitModel& model) const {
   std::vector<std::size_t> order;
   for (std::size_t i = model.effects.size(); i-- > 0;) order.push_back(i);
-  std::ranges::stable_partition(
-      order, [&](std::size_t i) { return !isSibling(service_.problem().library, model.effects, i); });
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return !isSibling(service_.problem().library, model.effects, i); });
   return order;
 }
 

@@ -8,7 +8,7 @@ export logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 # libode, libsqlite, Qt and OpenSceneGraph are not ours: their one-time allocations are not leaks of this program.
 export ASAN_OPTIONS=detect_leaks=0
-long="Xl330*:StrangeCarriage*:StrangeFan*:StrangePendulum*:Screener.Promises*:ShownSizes.FrictionThatGrows*:IndependentBall*:MeasuredLaw*:DisagreeingTrials*:StrangeServo*:StrangeArm.ThatAnother*:StrangeArm.Friction*:StrangeArm.Dry*:StrangeArm.ADelay*:ModelComparison.DryFriction*:ModelComparison.WhereDry*:WithItsLoop*:JointSpace.Driven*:JointSpace.TheStep*:JointSpace.ASwinging*:Locate.*:NextRecording.PushesAJoint*:TossedBody.WhatThe*:Consultation.LeadsTheReport*:Residual*:Analysis*:JobFailures.AnEffect*:JobFailures.NoVerdict*:Fit.*:JointDoctor*:All/EffectTrials*:KickTrial*:KickReach*:Dog.LeftAndRight*:WalkTrial.WalksWhere*:WalkTrial.TheStart*:WorldDeskTest.AMillion*"
+long="Xl330*:StrangeCarriage*:StrangeFan*:StrangePendulum*:Screener.Promises*:ShownSizes.FrictionThatGrows*:IndependentBall*:MeasuredLaw*:DisagreeingTrials*:StrangeServo*:StrangeArm.ThatAnother*:StrangeArm.Friction*:StrangeArm.Dry*:StrangeArm.ADelay*:ModelComparison.DryFriction*:ModelComparison.WhereDry*:WithItsLoop*:JointSpace.Driven*:JointSpace.TheStep*:JointSpace.ASwinging*:Locate.*:NextRecording.PushesAJoint*:TossedBody.WhatThe*:Consultation.LeadsTheReport*:Residual*:Analysis*:JobFailures.AnEffect*:JobFailures.NoVerdict*:TorqueNoise.ThatHides*:Fit.*:JointDoctor*:All/EffectTrials*:KickTrial*:KickReach*:Dog.LeftAndRight*:WalkTrial.WalksWhere*:WalkTrial.TheStart*:WorldDeskTest.AMillion*"
 analysis="Analysis.ASensorThatIsOffFromTheFirstSampleOnIsExplainedDownToTheNoise"
 resume="KilledRun.StopsCleanlyOnInterruptAndGoesOn:PreparedExperiment.*"
 

@@ -6,7 +6,8 @@ namespace btr {
 
 /// While it lives, what takes long in this thread — each replay of a segment, each job, each wait for worker
 /// processes — asks `goesOn` now and then, ten times a second at most, and ends with Cancelled when that says no.
-/// Worker processes do not ask: whoever waits for them does. The innermost counts. Changes no result.
+/// Worker processes do not ask: whoever waits for them does. The innermost counts. Changes no
+/// result but where it says that it is enough.
 class Interruptible {
  public:
   /// `isEnough`: asked with it; see unlessEnough.

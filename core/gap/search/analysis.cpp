@@ -226,7 +226,9 @@ void refuseUnknownEffects(const AnalysisOptions& options, const EffectLibrary& l
 
 GapReport analyse(const GapProblem& given, const EffectLibrary& library, const AnalysisOptions& options,
                   const AnalysisProgress& tell) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto passed_s = [begin = std::chrono::steady_clock::now()] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   std::string stage = "making ready";
   double share = 0;
   const AnalysisProgress progress = [&](const std::string& now, double at) {
@@ -332,9 +334,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   restNothingOnFaults(report);
   if (!isWhole) {
-    const double after_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report.notes.insert(report.notes.begin(),
-                        "cut short after " + digits(after_s, 2) + " s, as was asked for, while " + cutWhile +
+                        "cut short after " + digits(passed_s(), 2) + " s, as was asked for, while " + cutWhile +
                             ": other effects, rivals of these and curves were not looked for from there on");
     report.sentence =
         "The analysis was cut short (see the notes): more may be missing than is named. " + report.sentence;
@@ -344,7 +345,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     text.pop_back();
     report.sentence += " " + text;
   }
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = passed_s();
   progress("done", 1);
   return report;
 }

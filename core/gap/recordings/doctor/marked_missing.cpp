@@ -8,7 +8,6 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/command_by_position.h"
 #include "core/gap/recordings/extent.h"
-#include "core/spec/figures.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
@@ -29,12 +28,12 @@ bool isPlace(const std::string& channel) {
          quantity == "z_m";
 }
 
-/// The lowest or highest number of a column, if it is no value of the motion that the others are.
 struct Marker {
   double value = 0;
   bool isFar = false;  ///< more than twice the range of all others away from them
 };
 
+/// The lowest or highest number of a column, if it is no value of the motion that the others are.
 std::optional<Marker> markerAmong(const std::vector<double>& values, bool highest) {
   constexpr std::size_t leastTimes = 2, leastOthers = 20;
   constexpr double timesRange = 2, timesStep = 20;

@@ -217,7 +217,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final, 
   if (model.effects.size() == 1) return {calibrated_, first_};
   const Scored without =
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
-  if (eligible.effects && eligible.effects->empty()) return {without, {}};
+  if (eligible.isNone()) return {without, {}};
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
   const SearchThresholds& limits = service_.thresholds();
   const bool isShort = limits.shortRace.isRun(final.mean());
@@ -244,7 +244,7 @@ RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final,
   Offered& offered = place->second;
   if (isNew) {
     offered = inPlaceOf(i, final, eligible);
-    if (eligible.effects && eligible.effects->empty()) return offered;
+    if (eligible.isNone()) return offered;
     for (const HandedOver& arrived : handover_.handOver(i, final, eligible)) add(arrived, offered.others);
   }
   return offered;

@@ -28,6 +28,7 @@ struct Eligible {
   std::string at{};                                ///< the one place; empty: any
   std::optional<std::set<std::string>> effects{};  ///< nothing: all
 
+  bool isNone() const { return effects && effects->empty(); }
   bool operator()(const EffectCandidate& candidate) const {
     return (at.empty() || candidate.at == at) && (!effects || effects->contains(candidate.effect));
   }

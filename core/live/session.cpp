@@ -212,7 +212,8 @@ void Session::apply(const Act& act) {
 
 void Session::rebuild(Game game, const WorldMemory& memory) {
   checkPlayers(game, host_);
-  ModelSet models = loadModels(game.scene);
+  // A robot's file is read once a session, however often something else comes or goes.
+  ModelSet models = loadModels(game.scene, game.scene.directory == game_.scene.directory ? models_ : ModelSet{});
   Scene scene = sceneOf(game, models, host_);
   std::vector<Sensing> sensing = sensingOf(game, scene);
   std::map<std::string, Player> players;

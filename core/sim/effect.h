@@ -108,6 +108,9 @@ class Effect {
   /// Name of a whole number of periods in a turn (2π) of the joint's position; empty if it has none. Recordings show
   /// such an effect where they pass several periods: over less any curve of the position looks the same.
   virtual std::string periodsPerTurn() const { return {}; }
+  /// Names of the lower and of the upper end of a range of the joint's position within which it does nothing, neither
+  /// with a neutral value; empty if there is none. Recordings show such an effect where they pass an end.
+  virtual std::vector<std::string> freeRange() const { return {}; }
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }

@@ -80,7 +80,8 @@ struct Scene {
 
 /// Robot models by the path that the scene names, loaded once and shared, with the hulls of the meshes that collide.
 using ModelSet = std::map<std::string, std::shared_ptr<const RobotModel>>;
-ModelSet loadModels(const SceneSpec& spec);
+/// Those of `known`, of a scene in the same folder, are not read again.
+ModelSet loadModels(const SceneSpec& spec, const ModelSet& known = {});
 
 /// Gives the effect plugin of that name or throws InputError; the plugin host's effect() fits.
 using EffectFactory = std::function<std::shared_ptr<const Effect>(const std::string&)>;

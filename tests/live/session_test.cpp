@@ -237,6 +237,31 @@ TEST(SessionLogs, OfAKilledSessionAreReadUpToTheirLastWholeLine) {
   EXPECT_THAT(refusal([&] { loadSessionLog(path); }), HasSubstr("a file that ends within its first line"));
 }
 
+TEST(Session, ReadsARobotsFileOnceHoweverMuchComesAndGoes) {
+  const TemporaryFolder folder;
+  const std::string urdf = R"(<robot name="block"><link name="body"><inertial><mass value="1"/>
+      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+      <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link></robot>)";
+  folder.write("block.urdf", urdf);
+  Session session(gameFromJson(R"({"format": "uchilsim-game-1", "scene": {"format": "uchilsim-scene-1", "floor": {},
+      "robots": [{"name": "one", "model": "block.urdf", "position_m": [0, 0, 0.05]}]}})",
+                               "game", folder.file(".")),
+                  host());
+  std::filesystem::remove(folder.file("block.urdf"));
+  const auto apply = [&](const std::string& act) { session.apply(actFromJson(act, "act")); };
+  apply(R"({"act": "add", "ball": {"name": "ball", "position_m": [0.5, 0, 0.5]}})");
+  apply(R"({"act": "add", "robot": {"name": "two", "model": "block.urdf", "position_m": [0, 0.5, 0.05]}})");
+  run(session, 10);
+  EXPECT_EQ(session.fault(), "");
+  apply(R"({"act": "remove", "object": "one"})");
+  apply(R"({"act": "remove", "object": "two"})");
+  EXPECT_THAT(
+      refusal([&] {
+        apply(R"({"act": "add", "robot": {"name": "three", "model": "block.urdf", "position_m": [0, 0, 0.05]}})");
+      }),
+      HasSubstr("block.urdf"));
+}
+
 TEST(Games, AreRefusedWithFileAndPlace) {
   const auto refused = [](const std::string& from, const std::string& to) {
     std::string text = dogsText();

@@ -25,6 +25,22 @@ TEST(ViscousFriction, IsItsCoefficient) {
   EXPECT_EQ(0.02, effect("viscous_friction")->damping({.rate = 4}, Numbers{0.02}));
 }
 
+TEST(JointStop, PushesBackBeyondItsEndsAndNeverHolds) {
+  const Numbers values{40, -0.3, 0.5, 2};
+  const auto torque = [&](double position, double rate) {
+    return effect("joint_stop")->torque({.position = position, .rate = rate}, values);
+  };
+  EXPECT_EQ(0, torque(0.5, 3));
+  EXPECT_EQ(0, torque(-0.3, -3));
+  EXPECT_DOUBLE_EQ(-40 * 0.1 - 2 * 3, torque(0.6, 3));
+  EXPECT_DOUBLE_EQ(40 * 0.1 + 2 * 3, torque(-0.4, -3));
+  EXPECT_EQ(0, torque(0.6, -3)) << "what leaves it is not held back";
+  EXPECT_EQ(0, torque(-0.4, 3));
+  EXPECT_EQ(0, effect("joint_stop")->torque({.position = 0.6, .rate = 3}, Numbers{0, -0.3, 0.5, 2}));
+  // Ends that cross meet in their middle.
+  EXPECT_DOUBLE_EQ(-40 * (0.6 - 0.1), effect("joint_stop")->torque({.position = 0.6}, Numbers{40, 0.5, -0.3, 0}));
+}
+
 TEST(JointSpring, PullsToItsRestInProportion) {
   EXPECT_DOUBLE_EQ(-0.5 * (0.7 - 0.2), effect("joint_spring")->torque({.position = 0.7}, Numbers{0.5, 0.2}));
   EXPECT_DOUBLE_EQ(0, effect("joint_spring")->torque({.position = 0.2}, Numbers{0.5, 0.2}));

@@ -233,6 +233,20 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
   EXPECT_NEAR(-expected * 5, force.dot(ball.velocity_m_s), 1e-14);
 }
 
+TEST(JointStop, TurnsAWheelRoundInHalfAPeriodOfItsSpring) {
+  // From 0 to the end at speed ω, then half of 2π·√(J/k) in it, no deeper than ω·√(J/k), and back.
+  constexpr double inertia = 0.02, stiffness = 80, end = 0.6, speed = 12;
+  const double swing = std::sqrt(inertia / stiffness);
+  Scene scene = test::sceneOf(test::robot(test::wheelModel(inertia), false, {.kind = Drive::Kind::none}), 1e-4);
+  World world(test::withEffect(scene, effect("joint_stop"), "joint_stop", {stiffness, -100, end, 0}), 1);
+  world.setRobot(0, scene.robots[0].start, {0, 0, 0}, {0, 0, 0}, Numbers{0}, Numbers{speed});
+  world.advance(test::commands(scene, 0), end / speed + std::numbers::pi / 2 * swing);
+  EXPECT_NEAR(world.robot(0).position[0], end + speed * swing, 1e-3 * speed * swing);
+  world.advance(test::commands(scene, 0), end / speed + std::numbers::pi / 2 * swing);
+  EXPECT_NEAR(world.robot(0).position[0], 0, 5e-3 * end);
+  EXPECT_NEAR(world.robot(0).rate[0], -speed, 5e-3 * speed);
+}
+
 TEST(FluidDrag, StopsAWheelAsOneOverTime) {
   // J·ω̇ = −c·ω²: ω = ω0/(1 + c·ω0·t/J), an angle of J/c·ln(1 + c·ω0·t/J).
   constexpr double inertia = 0.02, c = 0.004, speed = 12, time_s = 1.5;

@@ -38,11 +38,15 @@ const std::map<std::string, std::string> notIdentifiable{
     {"strength_decline.damping_stays", "a whole number"},
     {"voltage_sag.damping_stays", "a whole number"},
     {"magnus_lift.saturates", "a whole number"},
+    {"joint_stop.damping_nm_s_rad", "its force begins with a leap where the joint touches: the error is rough in it"},
     {"payload.y_m", "lies along the only axis that the arm turns about"},
 };
 
 /// Where a default is 0 or above what the servo gives anyway, a size that can be told from nothing.
 const std::map<std::string, double> sizes{{"joint_spring.rest_rad", 0.5},
+                                          {"joint_stop.lower_rad", -0.2},
+                                          {"joint_stop.upper_rad", 0.2},
+                                          {"joint_stop.damping_nm_s_rad", 0.05},
                                           {"torque_ripple.phase_rad", 0.6},
                                           {"payload.x_m", 0.03},
                                           {"payload.z_m", -0.04},
@@ -56,7 +60,8 @@ const std::map<std::string, double> sizes{{"joint_spring.rest_rad", 0.5},
                                           {"torque_speed_limit.inverse_stall_torque_1_nm", 4}};
 
 /// Where a search begins, as a share of the size: half, but nearer where the error has side minima on the way.
-const std::map<std::string, double> begins{{"command_profile.inverse_speed_s_rad", 0.75}};
+const std::map<std::string, double> begins{
+    {"command_profile.inverse_speed_s_rad", 0.75}, {"joint_stop.lower_rad", 0.85}, {"joint_stop.upper_rad", 0.85}};
 
 class EffectTrials : public testing::TestWithParam<std::string> {
  protected:

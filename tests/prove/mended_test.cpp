@@ -255,7 +255,7 @@ TEST(Mended, RivalsBesideTheSameEffectsAreLookedForOnce) {
                                  "gravity_compensation", "integral_action",  "measured_law",    "rate_feedforward",
                                  "restitution_by_speed", "sampled_loop",     "sensor_drift",    "sensor_eccentricity",
                                  "sensor_scale",         "strength_decline", "viscous_drag",    "rate_filter",
-                                 "thinning_friction",    "floor_place",      "drive_gain"}
+                                 "thinning_friction",    "floor_place",      "drive_gain",      "joint_stop"}
         .contains(name);
   });
   const BlindCase blind = drawCase({20261171, 18, "ode", "pendulum", "two"}, then);

@@ -189,6 +189,26 @@ class TestComparePage : public QObject {
     QCOMPARE(page.stages().visibleRange().top(), 0.0);
   }
 
+  // A run that was duplicated twice with one seed: one draw, and one degree of freedom.
+  void aSeedCountsOnce() {
+    ComparePage page;
+    answer(page, [&](Id id) {
+      ComparePage::History all = history(1);
+      all.stages = {{1, id == 1 ? 0.1 : 0.3, 0, 1, 1}};
+      return all;
+    });
+    page.setRuns({run(1, 7, 30), run(2, 8, 30), run(5, 8, 30)}, {{1, "Kick"}});
+    page.setChosen({1, 2, 5});
+    const PlotData& plot = page.stages().data();
+    QCOMPARE(plot.series.size(), std::size_t(1));
+    QCOMPARE(plot.series[0].points, (std::vector<QPointF>{{1, 0.2}}));
+    QVERIFY(std::abs(plot.series[0].errors[0] - 0.1 * 12.7062) < 1e-5);
+    bool isSaid = false;
+    for (const auto* label : page.findChildren<QLabel*>())
+      isSaid = isSaid || label->text().contains("run 5 (as run 2)");
+    QVERIFY(isSaid);
+  }
+
   void whatWasReachedAtTheEndStandsInATable() {
     ComparePage page;
     answer(page, [&](Id id) {

@@ -678,6 +678,30 @@ class TestGapPage : public QObject {
     QCOMPARE(form.draft().rows[1].offset, QString("0.5"));
   }
 
+  // What was adopted, or cited in a paper, is not written over by the next analysis.
+  void aReportIsNotWrittenOver() {
+    QTemporaryDir folder;
+    AnalysisSetup setup;
+    setup.setReportBase(folder.path());
+    setup.addRecordings({SOURCE_DIR "/tests/data/bam_xl330/lift_and_drop_kp200_2026-01-15_10h28m49.csv"});
+    const auto* out = setup.findChild<QLineEdit*>("out");
+    const QString first = out->text();
+    QVERIFY(!setup.keepEarlierReport());
+    QCOMPARE(out->text(), first);
+    for (int n = 2; n < 4; ++n) {
+      QVERIFY(QDir().mkpath(out->text()));
+      QFile report(out->text() + "/report.json");
+      QVERIFY(report.open(QIODevice::WriteOnly));
+      QVERIFY(setup.keepEarlierReport());
+      QCOMPARE(out->text(), first + "-" + QString::number(n));
+    }
+    // Other recordings, another name, until somebody gives one.
+    setup.recordings().setCurrentCell(0, 0);
+    setup.removeRecording();
+    setup.addRecordings({SOURCE_DIR "/tests/data/bam_xl330/sin_sin_kp800_2026-01-15_10h29m47.csv"});
+    QCOMPARE(out->text(), folder.filePath("sin_sin_kp800_2026-01-15_10h29m47-gap-report"));
+  }
+
   void theJobIsWhatTheFormSays() {
     QTemporaryDir folder;
     AnalysisSetup setup;

@@ -413,6 +413,14 @@ class TestGridPage : public QObject {
     form->findChild<ParameterForm*>()->field("generations")->setText("300");
     form->findChild<ParameterForm*>()->field("points")->setText("1");
     QCOMPARE(form->problem(), QString());
+    // What the controller does not allow is said in the form, in its words and units; nothing starts.
+    form->findChild<QLineEdit*>("bearings_rad")->setText("-100, 0, 100");
+    QCOMPARE(form->problem(), QString("Bearings of the ball: -100° is not allowed; -68.75° to 68.75°"));
+    QVERIFY(!form->findChild<QPushButton*>("start")->isEnabled());
+    form->findChild<QLineEdit*>("bearings_rad")->setText("0, abc");
+    QVERIFY2(form->problem().startsWith("Bearings of the ball: \"abc\""), qPrintable(form->problem()));
+    form->findChild<QLineEdit*>("bearings_rad")->setText("0");
+    QCOMPARE(form->problem(), QString());
     form->findChild<QPushButton*>("start")->click();
 
     auto* go = window.gridPage().findChild<QPushButton*>("go");
@@ -441,9 +449,13 @@ class TestGridPage : public QObject {
     window.showPage("grid");
     window.gridPage().findChild<QPushButton*>("new")->click();
     auto* form = window.findChild<GridForm*>();
-    form->findChild<QLineEdit*>("distances_m")->setText("0.8");
+    nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    experiment["scene"] = "gone.json";
+    writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+    form->findChild<QLineEdit*>("experiment")->setText(folder.filePath("kick.json"));
+    QCOMPARE(form->problem(), QString());
     form->findChild<QPushButton*>("start")->click();
-    QTRY_VERIFY_WITH_TIMEOUT(window.banner().text().contains("0.8 is not allowed"), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(window.banner().text().contains("gone.json"), 60'000);
     QVERIFY(Database::open(folder.filePath("a.db").toStdString(), Database::Mode::readOnly).grids().empty());
   }
 

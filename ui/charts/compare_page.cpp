@@ -25,6 +25,11 @@ constexpr int listWidth = 340, chartsWidth = 860;    ///< of the room that they 
 constexpr int leastBeside = 2 * listWidth;           ///< narrower, the list stands above
 constexpr int listHeight = 170, chartsHeight = 430;  ///< of the room that they share one above the other
 
+/// The same experiment with the same seed: the same bits once more, no further draw.
+bool isSameRun(const RunRecord& a, const RunRecord& b) {
+  return a.seed == b.seed && a.specSha256 == b.specSha256 && withoutSeed(a) == withoutSeed(b);
+}
+
 /// Runs that differ only in their seed as one arm, in the order in which the first of each comes; by seed.
 std::vector<ComparedArm> armsOf(const std::vector<FitnessRun>& curves, const std::vector<RunRecord>& records,
                                 const std::map<Id, ComparePage::History>& read, bool joinSeeds) {
@@ -262,7 +267,7 @@ void ComparePage::draw() {
   std::vector<RunRecord> records, drawn;
   std::vector<FitnessRun> curves;
   QString unit;
-  QStringList leftOut;
+  QStringList leftOut, twice;
   bool isMissing = false;
   for (const Id id : chosen()) {
     const auto record = std::find_if(runs_.begin(), runs_.end(), [&](auto& run) { return run.id == id; });
@@ -279,6 +284,13 @@ void ComparePage::draw() {
       leftOut << tr("run %1 (%2)").arg(id).arg(history->second.unit);
       continue;
     }
+    if (joinSeeds_->isChecked())
+      if (const auto same =
+              std::ranges::find_if(drawn, [&](const RunRecord& other) { return isSameRun(other, *record); });
+          same != drawn.end()) {
+        twice << tr("run %1 (as run %2)").arg(id).arg(same->id);
+        continue;
+      }
     FitnessRun curve;
     curve.run = id;
     curve.name = nameOf(*record);
@@ -296,8 +308,12 @@ void ComparePage::draw() {
   real_->setData(stagePlot(arms, StageQuantity::realFitness, unit, realityNote(curves)));
   fillReached(arms, unit);
   fillDifferences(records);
-  leftOut_->setText(tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", ")));
-  leftOut_->setVisible(!leftOut.isEmpty());
+  QStringList words;
+  if (!leftOut.isEmpty())
+    words << tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", "));
+  if (!twice.isEmpty()) words << tr("A seed counts once; one that is drawn already has %1.").arg(twice.join(", "));
+  leftOut_->setText(words.join(' '));
+  leftOut_->setVisible(!words.isEmpty());
   summary_->setText(!trouble_.isEmpty() ? trouble_ : isMissing ? tr("Reading…") : differ_);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/run/grid/grid.h"
 #include "core/run/grid/grid_cells.h"
 #include "core/run/grid/grid_kicks.h"
 #include "core/spec/json_reader.h"
@@ -115,6 +116,7 @@ void GridController::describe() {
   if (isLearning()) return;
   auto* form = new GridForm(bench_.window());
   form->setAttribute(Qt::WA_DeleteOnClose);
+  form->setBounds([host = bench_.host()](const GridSpec& grid) { return axisParameters(*host, grid); });
   if (const QStringList examples = exampleGrids(); !examples.isEmpty())
     bench_.guard([&] { form->openFile(examples.first()); });
   connect(form, &GridForm::startRequested, this, [this, form] { start(*form); });

@@ -154,18 +154,34 @@ void RunController::stop(Id run) {
   });
 }
 
+/// The run of the same experiment that has that seed: a second one would be the same bits.
+const RunRecord* RunController::runWith(const RunRecord& like, std::uint64_t seed) const {
+  const std::vector<RunRecord>& runs = bench_.watcher().runs();
+  const auto same = std::ranges::find_if(
+      runs, [&](const RunRecord& other) { return other.specSha256 == like.specSha256 && other.seed == seed; });
+  return same != runs.end() ? &*same : nullptr;
+}
+
 void RunController::duplicate(Id run) {
   const RunRecord* record = bench_.watcher().run(run);
   if (!record) return;
+  std::uint64_t free = record->seed + 1;
+  while (runWith(*record, free)) ++free;
   bench_.guard([&] {
     bool ok = false;
     const QString typed = QInputDialog::getText(bench_.window(), tr("Duplicate with another seed"),
                                                 tr("Seed (a whole number from 0 to 9007199254740991):"),
-                                                QLineEdit::Normal, QString::number(record->seed + 1), &ok);
+                                                QLineEdit::Normal, QString::number(free), &ok);
     if (!ok) return;
     const quint64 seed = typed.trimmed().toULongLong(&ok);
     if (!ok || seed > 9007199254740991ULL)
       return bench_.report(tr("Seed: %1 is not allowed; a whole number from 0 to 9007199254740991").arg(typed));
+    // Read anew: the dialog may have been open for long.
+    const RunRecord* original = bench_.watcher().run(run);
+    if (const RunRecord* same = original ? runWith(*original, seed) : nullptr)
+      return bench_.report(tr("Seed: %1 is that of run %2 already, and would give the same run again; another one")
+                               .arg(seed)
+                               .arg(same->id));
     bench_.launcher().duplicate(bench_.path(), run, seed);
   });
 }

@@ -36,6 +36,7 @@ class RunController : public QObject {
   bool mayClose();
 
  private:
+  const RunRecord* runWith(const RunRecord& like, std::uint64_t seed) const;
   void launch(Id run);
   void checkLaunched();
   void checkMeasured();

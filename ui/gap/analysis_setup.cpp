@@ -11,6 +11,7 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QSplitter>
 #include <QTabWidget>
@@ -267,12 +268,29 @@ void AnalysisSetup::addRecordings(const QStringList& paths) {
   }
   // What was added is looked at: a file that is no recording is said at once.
   if (recordings_->rowCount() > before) recordings_->setCurrentCell(before, file);
-  if (out_->text().isEmpty() && recordings_->rowCount() > 0)
-    out_->setText(
-        QDir(reportBase_)
-            .filePath(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).completeBaseName() +
-                      "-gap-report"));
+  nameReport();
   refresh();
+}
+
+/// After the first recording, as long as nobody named the folder otherwise.
+void AnalysisSetup::nameReport() {
+  if (recordings_->rowCount() == 0 || (!out_->text().isEmpty() && out_->text() != named_)) return;
+  const QString first = recordings_->item(0, file)->data(Qt::UserRole).toString();
+  named_ = QDir(reportBase_).filePath(QFileInfo(first).completeBaseName() + "-gap-report");
+  out_->setText(named_);
+}
+
+bool AnalysisSetup::keepEarlierReport() {
+  static const QRegularExpression number(QStringLiteral("-\\d+$"));
+  const auto isTaken = [](const QString& folder) { return QFileInfo::exists(QDir(folder).filePath("report.json")); };
+  const QString asked = out_->text().trimmed();
+  if (!isTaken(asked)) return false;
+  QString base = asked, free;
+  base.remove(number);
+  for (int n = 2; free.isEmpty() || isTaken(free); ++n) free = base + "-" + QString::number(n);
+  if (asked == named_) named_ = free;
+  out_->setText(free);
+  return true;
 }
 
 void AnalysisSetup::fillWithExample() {
@@ -288,6 +306,7 @@ void AnalysisSetup::fillWithExample() {
 
 void AnalysisSetup::removeRecording() {
   if (recordings_->currentRow() >= 0) recordings_->removeRow(recordings_->currentRow());
+  nameReport();
   refresh();
 }
 
@@ -412,22 +431,26 @@ void AnalysisSetup::setRunning(bool running) {
 // Before physics is blamed: what the columns themselves say, by recording; the same words stand once.
 void AnalysisSetup::askDoctor() {
   constexpr qsizetype mostLines = 6;
-  QStringList lines;
-  QStringList said;
+  QStringList lines, notes, said;
   Objection objection;
   for (int row = 0; row < recordings_->rowCount() && !spec_.robots.empty(); ++row) {
     const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
     const QString mapping = mappingOf(path);
     const RecordingDoctor::Opinion& opinion = doctor_.of(path, mapping, sceneRead_, spec_, models_);
     for (const Diagnosis& trial : opinion.trials) objection.hear(path.toStdString(), mapping.toStdString(), trial);
-    recordings_->item(row, file)->setToolTip((QStringList{path} + opinion.findings).join('\n'));
-    for (QString text : opinion.findings) {
-      if (text.startsWith(path)) text = text.mid(path.size() + (text.mid(path.size(), 1) == ":")).trimmed();
-      if (said.contains(text)) continue;
-      said << text;
-      lines << QFileInfo(path).fileName() + ": " + text;
-    }
+    recordings_->item(row, file)->setToolTip((QStringList{path} + opinion.findings + opinion.notes).join('\n'));
+    const auto tell = [&](const QStringList& texts, QStringList& to) {
+      for (QString text : texts) {
+        if (text.startsWith(path)) text = text.mid(path.size() + (text.mid(path.size(), 1) == ":")).trimmed();
+        if (said.contains(text)) continue;
+        said << text;
+        to << QFileInfo(path).fileName() + ": " + text;
+      }
+    };
+    tell(opinion.findings, lines);
+    tell(opinion.notes, notes);
   }
+  lines += notes;  // of all recordings first what may be wrong
   certain_ = objection.text().has_value();
   if (lines.size() > mostLines) {
     const qsizetype more = lines.size() - mostLines;

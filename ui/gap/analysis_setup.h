@@ -37,6 +37,9 @@ class AnalysisSetup : public QWidget {
   /// Files that are there already are not added twice.
   void addRecordings(const QStringList& paths);
   void removeRecording();
+  /// Where the report's folder has a report, another one with a number is taken; true then. What was adopted or cited
+  /// stays as it was.
+  bool keepEarlierReport();
   /// Fills an empty page with the shipped example: a simulated XL330 servo whose recordings hide dry friction, one of
   /// them held out.
   void fillWithExample();
@@ -69,6 +72,7 @@ class AnalysisSetup : public QWidget {
   void keepRequested(const QStringList& files, const QString& scene);
 
  private:
+  void nameReport();
   QWidget* makeInputs();
   void chooseScene();
   void chooseRecordings();
@@ -82,6 +86,7 @@ class AnalysisSetup : public QWidget {
   QString seenHeldOut() const;  ///< a held-out file whose bytes are fitted, too; empty: none
 
   QLineEdit *scene_, *out_, *seed_;
+  QString named_;  ///< the report's folder as this page proposed it last
   QComboBox* simulator_;
   QTableWidget* recordings_;
   MappingForm* mapping_;

@@ -153,6 +153,8 @@ bool GapPage::confirmAdoption() {
 void GapPage::start() {
   refused_ = setup_->problem();
   if (!refused_.isEmpty()) return emit failed(refused_);
+  if (const QString asked = setup_->job().out; setup_->keepEarlierReport())
+    emit informed(tr("%1 keeps its report; this one goes to %2.").arg(asked, setup_->job().out));
   AnalysisJob job = setup_->job();
   try {
     if (const QString text = setup_->simulatorText(); !text.isEmpty()) {

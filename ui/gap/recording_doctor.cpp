@@ -24,12 +24,14 @@ RecordingDoctor::Opinion opinionOf(const QString& recording, const QString& mapp
       opinion.trials.push_back(doctor(world, trial, bind(world, trial)));
       for (const Finding& finding : opinion.trials.back().findings)
         opinion.findings << QString::fromStdString(finding.text);
-      for (const std::string& text : examine(trial).findings) opinion.findings << QString::fromStdString(text);
+      for (const auto& said : {trial.notes, examine(trial).findings})
+        for (const std::string& text : said) opinion.notes << QString::fromStdString(text);
     }
   } catch (const std::exception& error) {
     opinion.findings << QString::fromUtf8(error.what());
   }
   opinion.findings.removeDuplicates();
+  opinion.notes.removeDuplicates();
   return opinion;
 }
 

@@ -12,7 +12,8 @@ namespace btr::ui {
 class RecordingDoctor {
  public:
   struct Opinion {
-    QStringList findings;           ///< in words; why the file cannot be read, if it cannot
+    QStringList findings;           ///< what its columns say of the file
+    QStringList notes;              ///< what reading it changed, its pauses and counts
     std::vector<Diagnosis> trials;  ///< what the file is divided into
   };
   /// `mapping`: a path, "" for none. Large files are left to the analysis itself.

@@ -39,6 +39,11 @@ QStringList parts(QString text) {
   return text.replace(QChar(u'−'), '-').split(between, Qt::SkipEmptyParts);
 }
 
+QString axisName(std::size_t axis) {
+  return std::array{GridForm::tr("Distances of the ball"), GridForm::tr("Bearings of the ball"),
+                    GridForm::tr("Directions of the kick")}[axis];
+}
+
 /// `read` makes one number of a part, `numbers` are its kind in words.
 template <class Read>
 auto listIn(const QString& text, const std::string& what, const std::string& numbers, Read read) {
@@ -243,13 +248,13 @@ GridSpec GridForm::spec() const {
     const Axis& a = axes_[axis];
     grid.axes[axis] = a.values;
     if (a.edit->text() == a.shown) continue;
-    grid.axes[axis] = numbersIn(a.edit->text(), std::string("/") + GridSpec::axisKeys[axis]);
+    grid.axes[axis] = numbersIn(a.edit->text(), axisName(axis).toStdString());
     for (double& value : grid.axes[axis]) value /= axis == 0 ? 1 : inDegrees;
   }
   grid.mirroredDerived = mirrored_->isChecked();
   for (std::size_t k = 0; k < methods_.size(); ++k)
     if (methods_[k]->isChecked()) grid.methods.push_back(static_cast<GridSpec::Method>(k));
-  grid.seeds = seedsIn(seeds_->text(), "/seeds");
+  grid.seeds = seedsIn(seeds_->text(), tr("Seeds").toStdString());
   grid.settings = settings_->values();
   return grid;
 }
@@ -267,8 +272,31 @@ QString GridForm::problem() const {
   try {
     gridFromJson(gridFileText(spec()), "");
     loadExperiment(experimentPath());
+    return outOfBounds();
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what()).trimmed();
+  }
+}
+
+void GridForm::setBounds(Bounds bounds) {
+  bounds_ = std::move(bounds);
+  refresh();
+}
+
+/// In the field's own words and unit.
+QString GridForm::outOfBounds() const {
+  if (!bounds_) return {};
+  GridSpec grid = spec();
+  grid.experiment = experimentPath();
+  const std::vector<Parameter> axes = bounds_(grid);
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    const double scale = axis == 0 ? 1 : inDegrees;
+    const QString unit = axis == 0 ? tr(" m") : tr("°");
+    const auto shown = [&](double value) { return QString::number(scale * value, 'g', 4) + unit; };
+    for (const double value : grid.axes[axis])
+      if (value < axes[axis].minimum || value > axes[axis].maximum)
+        return tr("%1: %2 is not allowed; %3 to %4")
+            .arg(axisName(axis), shown(value), shown(axes[axis].minimum), shown(axes[axis].maximum));
   }
   return {};
 }

@@ -25,6 +25,9 @@ class GridForm : public QDialog {
   void openFile(const QString& path);
   /// Writes the grid there; the path of its experiment follows. Throws InputError.
   void saveFile(const QString& path);
+  /// Who knows what an experiment's controller allows on each axis (axisParameters()); nothing is checked without.
+  using Bounds = std::function<std::vector<Parameter>(const GridSpec&)>;
+  void setBounds(Bounds bounds);
   QString file() const { return file_; }
   GridSpec spec() const;
   QString problem() const;  ///< empty if it can be started
@@ -50,6 +53,9 @@ class GridForm : public QDialog {
   std::string experimentPath() const;
   void refresh();
 
+  QString outOfBounds() const;
+
+  Bounds bounds_;
   QUndoStack undo_;
   GridSpec loaded_;
   QString file_;

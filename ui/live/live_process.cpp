@@ -242,11 +242,8 @@ void LiveProcess::tellSamples(const json& line) {
 ModelSet LiveProcess::modelsOf(const SceneSpec& scene) {
   if (scene.directory != modelsFrom_) models_.clear();
   modelsFrom_ = scene.directory;
-  SceneSpec unread = scene;
-  std::erase_if(unread.robots, [this](const RobotSpec& robot) { return models_.contains(robot.model); });
-  for (auto& [path, model] : loadModels(unread)) models_[path] = model;
-  ModelSet models;
-  for (const RobotSpec& robot : scene.robots) models[robot.model] = models_.at(robot.model);
+  ModelSet models = loadModels(scene, models_);
+  for (const auto& [path, model] : models) models_[path] = model;
   return models;
 }
 

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -170,11 +171,17 @@ void Menus::openDatabase() {
 }
 
 void Menus::newDatabase() {
-  const QString path =
-      QFileDialog::getSaveFileName(&to_.window, tr("Make a database"), bench_.path(), tr("Experiment databases (*.db)"),
-                                   nullptr, QFileDialog::DontConfirmOverwrite);
+  const QDir folder = QFileInfo(bench_.path()).absoluteDir();
+  QString free = folder.filePath("experiments.db");
+  for (int n = 2; QFileInfo::exists(free); ++n) free = folder.filePath(QStringLiteral("experiments-%1.db").arg(n));
+  QString path =
+      QFileDialog::getSaveFileName(&to_.window, tr("Make a database"), free, tr("Experiment databases (*.db)"), nullptr,
+                                   QFileDialog::DontConfirmOverwrite);
   if (path.isEmpty()) return;
-  bench_.open(QFileInfo(path).suffix().isEmpty() ? path + ".db" : path, Workbench::Absent::make);
+  if (QFileInfo(path).suffix().isEmpty()) path += ".db";
+  if (QFileInfo::exists(path))
+    bench_.inform(tr("%1 was there already; it is opened as it is.").arg(QDir::toNativeSeparators(path)));
+  bench_.open(path, Workbench::Absent::make);
 }
 
 // Shortcuts work while the menu is closed too, so the entries always exist and say themselves when they do not fit.

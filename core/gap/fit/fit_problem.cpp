@@ -100,7 +100,8 @@ void chooseStep(FitProblem& problem) {
     for (std::size_t k = 0; k < fine.size(); ++k) square += (coarse[k] - fine[k]) * (coarse[k] - fine[k]);
     if (std::sqrt(square / static_cast<double>(fine.size())) < harmless) {
       problem.notes.push_back("fits use a step of " + toText(problem.scene.step_s) +
-                              " s: it changes the replay by less than " + digits(harmless, 2) + " noise floors");
+                              " s: of the simulator as given, which is off by " + digits(std::sqrt(error), 3) +
+                              " noise floors, that changes the replay by less than " + digits(harmless, 2));
       return;
     }
   }
@@ -211,7 +212,6 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   ready.models = problem.models;
   ready.given = problem.simulator;
   ready.library = library;
-  std::set<std::string> said;
   for (const Recording& recording : recordings) {
     if (recording.rows() < 8)
       throw InputError(recording.source, std::to_string(recording.rows()) + " rows", "at least 8 rows for an analysis");
@@ -224,11 +224,6 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       throw InputError(recording.source +
                        ": no column can be compared with the scene; position, velocity, torque, base or "
                        "ball channels are needed");
-    const std::string name = std::filesystem::path(recording.source).filename().string();
-    for (const auto* list :
-         std::initializer_list<const std::vector<std::string>*>{&kept.recording.notes, &kept.binding.notes})
-      for (const std::string& text : *list)
-        if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
   }
   shareNoiseFloors(ready.trials, ready.notes);
   refuseWithoutNumbers(ready.trials);

@@ -7,6 +7,7 @@
 
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/counts.h"
+#include "core/gap/recordings/doctor/frozen.h"
 #include "core/gap/recordings/doctor/lost_rows.h"
 #include "core/gap/recordings/doctor/marked_missing.h"
 #include "core/gap/recordings/doctor/recording_health.h"
@@ -135,6 +136,7 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
     if (mapping && mapping->retime_s) retime(trial, *mapping->retime_s);
     if (mapping) bound(trial, *mapping);
     refuseJumps(trial);
+    emptyFrozen(trial);
     emptyRepeated(trial);
     trial.lostRowsHold = mapping && mapping->lostRowsHold;
     if (!trial.lostRowsHold) fillLostRows(trial);

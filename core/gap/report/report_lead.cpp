@@ -177,8 +177,8 @@ void addNext(ReportLead& lead, const GapReport& report) {
       say("Nothing to adopt. If the task goes further than these recordings (speed, load, ground), record that, too.");
       break;
     case Verdict::unexplained:
-      say("Do not adopt names that were not confirmed. Look below where and when the error is made: is it at the same "
-          "place in all trials?");
+      say(std::string(report.law.known() ? "" : "Nothing is named that could be adopted. ") +
+          "Look below where and when the error is made: is it at the same place in all trials?");
       break;
     default:
       say(lead.isWarning ? "Do not adopt this yet: fit some of the recordings that were held out, too, and hold others "

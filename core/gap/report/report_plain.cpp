@@ -1,4 +1,5 @@
 // A gap report for a terminal.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -24,8 +25,14 @@ std::string column(double value, int width, int precision) {
 }
 
 std::string intervalText(const GapReport::Number& number) {
-  const auto text = [](const GapReport::Interval& i) { return line(" [%.4g … %.4g]", i.low, i.high); };
-  return (number.ci95.known() ? text(number.ci95) : "") +
+  // As many digits as tell its ends apart; a whole number, which has no width, has none.
+  const auto text = [](const GapReport::Interval& i) {
+    const double size = std::max(std::abs(i.low), std::abs(i.high)), width = i.high - i.low;
+    const bool isThin = std::isfinite(size) && width > 0;
+    const int figures = isThin ? std::clamp(static_cast<int>(std::ceil(std::log10(size / width))) + 2, 4, 12) : 4;
+    return line(" [%.*g … %.*g]", figures, i.low, figures, i.high);
+  };
+  return (number.ci95.known() && number.ci95.high > number.ci95.low ? text(number.ci95) : "") +
          (number.amongRivals.known() ? ", among rivals" + text(number.amongRivals) : "");
 }
 

@@ -335,7 +335,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   restNothingOnFaults(report);
   if (!isWhole) {
     report.notes.insert(report.notes.begin(),
-                        "cut short after " + digits(passed_s(), 2) + " s, as was asked for, while " + cutWhile +
+                        "cut short by the limit of its time, while " + cutWhile +
                             ": other effects, rivals of these and curves were not looked for from there on");
     report.sentence =
         "The analysis was cut short (see the notes): more may be missing than is named. " + report.sentence;

@@ -134,6 +134,7 @@ struct SearchThresholds {
     std::array<double, 2> largeSizes{4, 16};  ///< the same [case: play and limits are not linear]
     double mostKinds = 5;                     ///< whole numbers that are kinds and not counts, each fitted [hand]
     double leastPeriods = 2;                  ///< that a motion must pass for them to be counted [case]
+    double endInside = 0.1;                   ///< of the motion: where ends of a free range are looked for first [hand]
   };
 
   /// Linear screening: what each candidate promises (screen.h), and which are fitted.

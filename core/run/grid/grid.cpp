@@ -27,15 +27,23 @@ ExperimentSpec experimentOf(const GridSpec& grid, GridSpec::Method method) {
   return experiment;
 }
 
-void checkAxes(const GridSpec& grid, const Controller& controller, const std::string& name) {
+std::vector<Parameter> axesOf(const GridSpec& grid, const Controller& controller, const std::string& name) {
   const std::vector<Parameter> settings = controller.settings();
-  for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
-    const Parameter* parameter = find(settings, GridSpec::axisNames[axis]);
+  std::vector<Parameter> axes;
+  for (const char* axis : GridSpec::axisNames) {
+    const Parameter* parameter = find(settings, axis);
     if (!parameter)
       throw InputError(grid.file + " /experiment", "the controller " + name,
-                       std::string("one with the setting ") + GridSpec::axisNames[axis] + ", as kick has");
-    for (const double value : grid.axes[axis]) check(*parameter, value, grid.file + " /" + GridSpec::axisKeys[axis]);
+                       std::string("one with the setting ") + axis + ", as kick has");
+    axes.push_back(*parameter);
   }
+  return axes;
+}
+
+void checkAxes(const GridSpec& grid, const Controller& controller, const std::string& name) {
+  const std::vector<Parameter> axes = axesOf(grid, controller, name);
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+    for (const double value : grid.axes[axis]) check(axes[axis], value, grid.file + " /" + GridSpec::axisKeys[axis]);
   if (!grid.mirroredDerived) return;
   const std::vector<Parameter> genotype = controller.genotype();
   try {
@@ -61,6 +69,12 @@ GridStart gridStart(const PreparedExperiment& base, const GridSpec& spec, GridSp
   begun.note = nameOfTask(cell.task) + ", seed " + std::to_string(seed);
   if (cell.mirrorOf) begun.note += ", mirror image of cell " + std::to_string(cell.mirrorOf);
   return begun;
+}
+
+std::vector<Parameter> axisParameters(const PluginHost& host, const GridSpec& spec) {
+  const std::string experiment = (std::filesystem::path(spec.file).parent_path() / spec.experiment).string();
+  const std::string name = loadExperiment(experiment).controller.name;
+  return axesOf(spec, *host.controller(name), name);
 }
 
 Id startGrid(Database& database, const PluginHost& host, const GridSpec& spec, GridSpec::Method method,

@@ -25,6 +25,10 @@ struct GridOptions {
   std::function<void(const GridProgress&)> progress;  ///< about once a second
 };
 
+/// The settings of the experiment's controller that are a grid's axes, in their order, with their bounds. Throws
+/// InputError where it has none of that name, or the experiment cannot be read.
+std::vector<Parameter> axisParameters(const PluginHost& host, const GridSpec& spec);
+
 /// Starts a grid with one method and seed, or finds it if it is stored: grid, cells and first runs are in the database
 /// then. Checks the experiment, the axes (settings of its controller that are named like GridSpec::axisNames) and that
 /// the controller has mirrored motions where the grid derives cells. Throws InputError.

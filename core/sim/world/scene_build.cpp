@@ -215,13 +215,14 @@ void makeHulls(RobotModel& model, const std::string& path, const SceneSpec& scen
   }
 }
 
-ModelSet loadModels(const SceneSpec& spec) {
+ModelSet loadModels(const SceneSpec& spec, const ModelSet& known) {
   ModelSet models;
   for (const auto& robot : spec.robots) {
     if (models.contains(robot.model)) continue;
     const std::filesystem::path path(robot.model);
     const auto full = path.is_absolute() ? path : std::filesystem::path(spec.directory) / path;
-    RobotModel model = loadModel(full.string());
+    const auto there = known.find(robot.model);
+    RobotModel model = there == known.end() ? loadModel(full.string()) : *there->second;
     makeHulls(model, robot.model, spec);
     models[robot.model] = std::make_shared<const RobotModel>(std::move(model));
   }

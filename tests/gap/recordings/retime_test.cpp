@@ -71,6 +71,20 @@ TEST(Retime, LeavesDroppedSamplesOut) {
   }
 }
 
+// Two losses within the window by which a clock is known: the rows between them were moved by a whole period.
+TEST(Retime, LeavesSamplesOutThatWereDroppedNearEachOther) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const double lost : {0.005, 0.015, 0.03, 0.1}) {
+      Random random(100 + seed);
+      std::vector<int> dropped;
+      for (int i = 1; i < 2000; ++i)
+        if (random.uniform(0, 1) < lost) dropped.push_back(i);
+      Stamped late(0.001, 0.001, dropped, seed);
+      retime(late.trial, 0);
+      EXPECT_LT(late.worst(0.0005), 3e-4) << seed << ", lost " << lost;
+    }
+}
+
 TEST(Retime, RefusesRowsThatAreNoEvenSamples) {
   Stamped other(0.001, 0);
   EXPECT_THAT(test::refusal([&] { retime(other.trial, 0.01); }),

@@ -144,6 +144,15 @@ TEST(Leaps, AreNoMotion) {
   EXPECT_THAT(spike.leaps(),
               ElementsAre(AllOf(HasSubstr("2 single samples stand out by up to 40 rad, the first at 1.5 s"),
                                 HasSubstr("leave these cells empty"))));
+  // One beside another, and one that lasts for two rows.
+  spike.trial.columns[1][301] -= 2;
+  spike.trial.columns[1][701] -= 3;
+  EXPECT_THAT(spike.leaps(), ElementsAre(HasSubstr("4 single samples stand out by up to 42 rad, the first at 1.5 s")));
+  // The size that is told is that of the leap whose time is told.
+  Sampled twice(0.005);
+  for (std::size_t row = 200; row < twice.trial.rows(); ++row) twice.trial.columns[1][row] += row < 600 ? 2 : 7;
+  EXPECT_THAT(twice.leaps(), ElementsAre(AllOf(HasSubstr("leaps by 2 rad"), HasSubstr("at 1 s"),
+                                               HasSubstr("1 times more (by up to 4.99 rad)"))));
   // A pause in which the joint was moved.
   Sampled pause(0.005);
   for (auto& column : pause.trial.columns) column.erase(column.begin() + 100, column.begin() + 400);

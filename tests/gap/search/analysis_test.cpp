@@ -191,6 +191,25 @@ TEST(EffectCandidates, PeriodsAreCountedWhereTheMotionPassesTwoOfThem) {
   }
 }
 
+TEST(EffectCandidates, EndsOfAFreeRangeAreLookedForWithinTheMotion) {
+  const GapProblem recorded = recordedInItsSteps();
+  const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
+  double low = INFINITY, high = -INFINITY;
+  for (const Recording& recording : recorded.recordings)
+    for (const double q : recording.columns[2]) {
+      low = std::min(low, q);
+      high = std::max(high, q);
+    }
+  const auto candidates = candidatesFor(problem, givenModel(problem), {"joint_stop"});
+  ASSERT_EQ(candidates.size(), 1u) << "the rail was not measured";
+  EXPECT_EQ(candidates[0].at, "rig.hinge");
+  for (const Values& variant : candidates[0].variants) {
+    EXPECT_GT(variant.at("lower_rad"), low);
+    EXPECT_LT(variant.at("lower_rad"), variant.at("upper_rad"));
+    EXPECT_LT(variant.at("upper_rad"), high);
+  }
+}
+
 TEST(Analysis, ADelayIsNotTakenForFriction) {
   const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});

@@ -382,8 +382,22 @@ TEST(StrangeServo, WhoseWholeTrialsAreLostIsLookedAtInWindows) {
   EXPECT_NEAR(found.at("gain_nm_rad_s"), plant.integral, 0.2 * plant.integral);
 }
 
-// No effect of the library is one. A straight spring takes most of the error, and a curve beside it the rest, which is
-// a wrong name and a wrong curve: the curve alone is what it is.
+TEST(StrangeServo, WithAHardStopOnEitherSideIsSaidToHaveThem) {
+  strange::Plant plant;
+  plant.spring = 400;
+  plant.springFrom = 0.5;
+  const GapReport report =
+      reportOn(plant, 18, {"joint_stop", "joint_spring", "torque_ripple", "coulomb_friction", "backlash"});
+  EXPECT_EQ(report.verdict, GapReport::Verdict::missingPhysics) << toPlainText(report);
+  const Values found = sizesOf(report, "joint_stop");
+  ASSERT_TRUE(found.contains("stiffness_nm_rad")) << toPlainText(report);
+  EXPECT_NEAR(found.at("stiffness_nm_rad"), plant.spring, 0.05 * plant.spring);
+  EXPECT_NEAR(found.at("lower_rad"), -plant.springFrom, 0.002);
+  EXPECT_NEAR(found.at("upper_rad"), plant.springFrom, 0.002);
+}
+
+// Where stops themselves are not looked for, a straight spring takes most of the error, and a curve beside it the rest,
+// which is a wrong name and a wrong curve: the curve alone is what it is.
 TEST(StrangeServo, WithSoftStopsOnEitherSideHasASpringWithADeadZoneAndNoOtherName) {
   strange::Plant plant;
   plant.spring = 2;

@@ -16,9 +16,34 @@ using Measured = Binding::Measured;
 struct Track {
   std::vector<std::size_t> row;
   std::vector<std::size_t> leaps;  ///< i: from row[i] to row[i + 1]
-  std::size_t spikes = 0;          ///< single samples that stand out: two leaps that undo each other
-  double largest = 0;
+  std::size_t spikes = 0;          ///< samples that stand out: leaps that soon undo each other
+  std::size_t undone = 0;          ///< leaps that do
+  double first = 0, largest = 0;   ///< sizes of leaps
 };
+
+/// Counts leaps away from which a few samples lead back, in leaps or (over an empty cell) not.
+void countSpikes(Track& track, const std::vector<double>& steps) {
+  constexpr std::size_t longest = 3;  // samples, on end
+  constexpr double back = 0.25;       // of the largest step meanwhile
+  for (std::size_t k = 0; k < track.leaps.size();) {
+    const std::size_t first = track.leaps[k];
+    double away = steps[first], largest = std::abs(away);
+    std::size_t samples = 0;
+    for (std::size_t n = 1; n <= longest && first + n < steps.size() && samples == 0; ++n) {
+      away += steps[first + n];
+      largest = std::max(largest, std::abs(steps[first + n]));
+      const bool another = std::ranges::binary_search(track.leaps, first + n + 1);
+      if (std::abs(away) < back * largest && !another) samples = n;
+    }
+    std::size_t end = k + 1;
+    while (samples > 0 && end < track.leaps.size() && track.leaps[end] <= first + samples) ++end;
+    if (samples > 0) {
+      track.spikes += samples;
+      track.undone += end - k;
+    }
+    k = end;
+  }
+}
 
 Track trackOf(const Recording& recording, std::size_t column, double period_s) {
   constexpr double leastSpeed = 100, usualSteps = 20, longest = 3.5;  // rad/s or m/s; −; periods
@@ -39,12 +64,11 @@ Track trackOf(const Recording& recording, std::size_t column, double period_s) {
     if (passed_s > longest * period_s || std::abs(steps[i]) < leastSpeed * passed_s ||
         std::abs(steps[i]) < usualSteps * usual)
       continue;
-    if (!track.leaps.empty() && i == track.leaps.back() + 1 &&
-        std::abs(steps[i] + steps[i - 1]) < std::abs(steps[i]) / 4)
-      ++track.spikes;
     track.leaps.push_back(i);
+    if (track.leaps.size() == 1) track.first = std::abs(steps[i]);
     track.largest = std::max(track.largest, std::abs(steps[i]));
   }
+  countSpikes(track, steps);
   return track;
 }
 
@@ -60,21 +84,22 @@ std::set<std::string> lookForLeaps(const Recording& recording, const Binding& bi
     const std::string& channel = recording.channels[measured.column];
     const std::vector<double>& time = recording.columns[0];
     const std::size_t first = track.row[track.leaps[0] + 1];
-    const std::string size = digits(track.largest) + " " + unitOfChannel(channel);
-    const bool onlySpikes = 2 * track.spikes >= track.leaps.size();
-    if (onlySpikes) {
+    const std::string unit = " " + unitOfChannel(channel), size = digits(track.largest) + unit;
+    if (track.undone == track.leaps.size()) {
       findings.push_back({channel, channel + ": " + std::to_string(track.spikes) +
                                        (track.spikes == 1 ? " single sample stands" : " single samples stand") +
                                        " out by up to " + size + ", the first at " + digits(time[first], 6) +
                                        " s: read wrongly, it seems; leave these cells empty"});
       continue;
     }
-    const std::string more =
-        track.leaps.size() > 1 ? ", and " + std::to_string(track.leaps.size() - 1) + " times more" : "";
+    const std::string more = track.leaps.size() > 1 ? ", and " + std::to_string(track.leaps.size() - 1) +
+                                                          " times more (by up to " + size + ")"
+                                                    : "";
     findings.push_back(
         {channel,
-         channel + " leaps by " + size + " within " + digits(time[first] - time[track.row[track.leaps[0]]], 2) +
-             " s, at " + digits(time[first], 6) + " s" + more +
+         channel + " leaps by " + digits(track.first) + unit + " within " +
+             digits(time[first] - time[track.row[track.leaps[0]]], 2) + " s, at " + digits(time[first], 6) + " s" +
+             more +
              ", which no joint does: a counter that begins again (\"wrap\" in the mapping says after how "
              "much), a sign in a bit of its own (\"sign_bit\"), or numbers that were read wrongly",
          true});

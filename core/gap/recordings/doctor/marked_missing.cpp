@@ -8,6 +8,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/command_by_position.h"
 #include "core/gap/recordings/extent.h"
+#include "core/gap/recordings/table/row_order.h"
 #include "core/spec/parameter.h"
 
 namespace btr {

@@ -155,7 +155,7 @@ RecordingHealth examine(const Recording& recording) {
     if (const std::size_t every = everyNthRow(values); every > 1 && !thinned)
       health.findings.push_back(name + ": a value in every " + ordinal(every) + " row" +
                                 (isInputChannel(name) ? "; held between" : "; compared there"));
-    else if (channel.empty > 0 && !thinned)
+    else if (channel.empty > 0 && !thinned && recording.places.line.empty())  // else whoever read or emptied it said so
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");
     // A command that steps between two values has no counts.

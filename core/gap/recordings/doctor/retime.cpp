@@ -20,51 +20,55 @@ constexpr double mostPeriods = 3;    // that a stamp may be off, in the usual ro
 constexpr double mostTelling = 0.4;  // jitter, in periods, that still shows dropped samples
 constexpr double samePeriod = 0.1;   // by which a given period may differ from that of the stamps
 
-/// Of the stamps: over ten rows jitter counts a tenth, and dropped samples do no harm; coarse stamps need all rows.
+/// Of the stamps: over ten rows jitter counts a tenth; rows between which samples were dropped, as a step shows that is
+/// far longer than usual, do not count. Coarse stamps need all rows.
 double averagePeriod(const std::vector<double>& time) {
+  constexpr double dropped = 1.7;    // of the usual step, from which one shows them
+  constexpr std::size_t enough = 5;  // places of ten rows without
   if (std::ranges::adjacent_find(time, std::greater_equal<>()) != time.end())
     return (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const std::size_t over = std::min<std::size_t>(10, time.size() - 1);
-  std::vector<double> periods;
-  for (std::size_t i = over; i < time.size(); ++i)
+  std::vector<double> steps(time.size());
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  const double longest = dropped * median({steps.begin() + 1, steps.end()});
+  std::vector<double> periods, whole;
+  for (std::size_t i = over; i < time.size(); ++i) {
     periods.push_back((time[i] - time[i - over]) / static_cast<double>(over));
-  return median(std::move(periods));
+    const auto row = steps.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::all_of(row + 1 - static_cast<std::ptrdiff_t>(over), row + 1, [&](double s) { return s < longest; }))
+      whole.push_back(periods.back());
+  }
+  return median(whole.size() >= enough ? std::move(whole) : std::move(periods));
 }
 
-/// Where a clock stands, from the stamps around a row, and how far it can be known from them.
-struct Level {
-  double median_s = 0, uncertainty_s = 0;
-};
-
-Level levelOf(const std::vector<double>& zeros) {
-  Level level{median(zeros), 0};
-  double squares = 0;
-  for (const double zero : zeros) squares += (zero - level.median_s) * (zero - level.median_s);
-  // A median is 1.25 times as uncertain as a mean.
-  level.uncertainty_s = 1.25 * std::sqrt(squares) / static_cast<double>(zeros.size());
-  return level;
-}
-
-/// Of `zeros`, the first that a clock `later_s` behind explains together with all that follow.
-std::size_t firstLate(const std::vector<double>& zeros, double before_s, double later_s) {
-  double cost = 0;
-  for (const double zero : zeros) cost += std::abs(zero - before_s - later_s);
-  std::size_t first = 0;
-  double least = cost;
-  for (std::size_t i = 0; i < zeros.size(); ++i) {
-    cost += std::abs(zeros[i] - before_s) - std::abs(zeros[i] - before_s - later_s);
-    if (cost < least) {
-      least = cost;
-      first = i + 1;
+/// How many samples were dropped just before the first of `zeros` (where the clock's zero would be by each row), if it
+/// stood at `before_s`: the cheapest way in which more and more are dropped from row to row, all later stamps staying
+/// behind each time. So a late stamp, which is followed by one that is in time, drops none.
+double droppedBefore(const std::vector<double>& zeros, double before_s, double period_s) {
+  constexpr double ofDropping = 0.5;  // what it costs, in periods that a stamp strays
+  std::vector<double> dropped{0};
+  for (const double zero : zeros)
+    if (const double whole = std::round((zero - before_s) / period_s); whole > 0) dropped.push_back(whole);
+  std::ranges::sort(dropped);
+  dropped.erase(std::ranges::unique(dropped).begin(), dropped.end());
+  // From the last row on: the cost of all that follows, by what was dropped until then.
+  std::vector<double> cost(dropped.size(), 0);
+  for (std::size_t row = zeros.size(); row-- > 0;) {
+    double least = INFINITY;
+    for (std::size_t k = dropped.size(); k-- > 0;) {
+      const double after = std::min(cost[k], least + ofDropping);
+      least = std::min(least, cost[k]);
+      cost[k] = after + std::abs((zeros[row] - before_s) / period_s - dropped[k]);
     }
   }
-  return first;
+  std::size_t cheapest = 0;
+  for (std::size_t k = 1; k < dropped.size(); ++k)
+    if (cost[k] + ofDropping < cost[cheapest] + (cheapest > 0 ? ofDropping : 0)) cheapest = k;
+  return dropped[cheapest];
 }
 
-/// The number of each row's sample. A late stamp is followed by one that is in time; where samples were dropped, all
-/// later stamps stay behind.
+/// The number of each row's sample. Where samples were dropped, all later stamps stay behind.
 std::vector<double> sampleNumbers(const std::vector<double>& time, double period) {
-  constexpr double clearly = 3;
   std::vector<double> number(time.size(), 0), before, after;  // where the clock's zero would be
   for (std::size_t row = 1; row < time.size(); ++row) {
     number[row] = number[row - 1] + 1;
@@ -73,10 +77,7 @@ std::vector<double> sampleNumbers(const std::vector<double>& time, double period
     for (std::size_t i = row > around ? row - around : 0; i < row; ++i) before.push_back(time[i] - period * number[i]);
     for (std::size_t i = row; i < std::min(time.size(), row + around); ++i)
       after.push_back(time[i] - period * (number[row] + static_cast<double>(i - row)));
-    const Level was = levelOf(before), is = levelOf(after);
-    const double behind = is.median_s - was.median_s, missing = std::round(behind / period);
-    if (missing < 1 || behind < clearly * std::hypot(was.uncertainty_s, is.uncertainty_s)) continue;
-    if (firstLate(after, was.median_s, missing * period) == 0) number[row] += missing;
+    number[row] += droppedBefore(after, median(before), period);
   }
   return number;
 }

@@ -52,13 +52,39 @@ std::optional<std::size_t> positionOf(const FitTrial& trial, const std::string& 
   return {};
 }
 
-/// How far a joint's position moves in all recordings together [rad or m]; of what is no measured joint 0.
-double travelOf(const FitProblem& problem, const std::string& at) {
+/// Where a joint's position was in all recordings together [rad or m]; nowhere for what is no measured joint.
+Extent positionsOf(const FitProblem& problem, const std::string& at) {
   Extent position;
   for (const FitTrial& trial : problem.trials)
     if (const auto channel = positionOf(trial, at))
       position.add(trial.recording.columns[trial.binding.measured[*channel].column]);
-  return position.some() ? position.high - position.low : 0;
+  return position;
+}
+
+/// Periods are called so only where the motion passes several of them.
+void showPeriods(std::vector<Parameter>& declared, const std::string& periods, const Extent& position,
+                 const SearchThresholds::Candidates& limits) {
+  const double travel = position.some() ? position.high - position.low : 0;
+  for (Parameter& p : declared)
+    if (p.name == periods) {
+      p.minimum = std::max(p.minimum, travel > 0 ? std::ceil(limits.leastPeriods * 2 * M_PI / travel) : INFINITY);
+      p.byDefault = std::max(p.byDefault, p.minimum);
+    }
+}
+
+/// The ends of a free range lie on either side of the motion's middle, and are looked for first near its ends.
+void showEnds(std::vector<Parameter>& declared, const std::vector<std::string>& ends, const Extent& position,
+              const SearchThresholds::Candidates& limits) {
+  const bool moves = position.some() && position.high > position.low;
+  const double middle = (position.low + position.high) / 2, inside = limits.endInside * (position.high - position.low);
+  for (Parameter& p : declared) {
+    if (p.name != ends.front() && p.name != ends.back()) continue;
+    const bool isLower = p.name == ends.front();
+    p.minimum = moves ? (isLower ? position.low : middle) : INFINITY;
+    if (!moves) continue;
+    p.maximum = isLower ? middle : position.high;
+    p.byDefault = isLower ? position.low + inside : position.high - inside;
+  }
 }
 
 /// A joint that stays where it is in each of the recordings, as far as its noise lets see.
@@ -174,14 +200,10 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
       p.byDefault = std::max(p.byDefault, p.minimum);
     }
   }
-  const std::string periods = made->periodsPerTurn();
-  if (periods.empty()) return declared;
-  const double travel = travelOf(problem, at);
-  for (Parameter& p : declared)
-    if (p.name == periods) {
-      p.minimum = std::max(p.minimum, travel > 0 ? std::ceil(thresholds.leastPeriods * 2 * M_PI / travel) : INFINITY);
-      p.byDefault = std::max(p.byDefault, p.minimum);
-    }
+  if (const std::string periods = made->periodsPerTurn(); !periods.empty())
+    showPeriods(declared, periods, positionsOf(problem, at), thresholds);
+  if (const auto ends = made->freeRange(); !ends.empty())
+    showEnds(declared, ends, positionsOf(problem, at), thresholds);
   return declared;
 }
 

@@ -88,7 +88,10 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
     for (const Recording& recording : *list) {
       const std::string name = std::filesystem::path(recording.source).filename().string();
       const Scene scene = widened(scenes.of(recording, library.make), problem.scene.calibrate);
-      const Diagnosis found = doctor(scene, recording, bind(scene, recording));
+      const Binding binding = bind(scene, recording);
+      for (const auto* said : {&recording.notes, &binding.notes})
+        for (const std::string& text : *said) others.push_back(name + ": " + text);
+      const Diagnosis found = doctor(scene, recording, binding);
       objection.hear(recording.source, recording.mapping, found);
       for (const Finding& finding : found.findings) {
         addGrave(grave, finding.channel, name, finding.text);

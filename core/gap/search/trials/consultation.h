@@ -10,7 +10,8 @@ namespace btr {
 
 /// What the doctor says of all recordings of an analysis, before anything is simulated.
 struct Consultation {
-  std::vector<std::string> notes;  ///< every finding, gravest first: columns, pauses, empty cells, counts
+  std::vector<std::string> notes;  ///< of all recordings, held out or not: every finding, gravest first, then what
+                                   ///< reading them changed, empty cells, counts
   std::string caveat;              ///< what must lead the report's sentence; "" for healthy recordings
 };
 

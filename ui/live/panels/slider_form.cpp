@@ -39,6 +39,11 @@ SliderForm::SliderForm(QWidget* parent) : QWidget(parent) {
   WheelGuard::ensure();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  refused_ = new QLabel(this);
+  refused_->setObjectName("refused");
+  refused_->setWordWrap(true);
+  refused_->hide();
+  column->addWidget(refused_);
   column->addStretch();
 }
 
@@ -48,6 +53,7 @@ void SliderForm::setParameters(const std::vector<Parameter>& parameters, const V
                                        [](const Line& line) { return line.parameter.name; });
   if (same) return;  // what is being typed stays
   usual_ = usual;
+  refused_->hide();
   delete content_;
   lines_.clear();
   lines_.reserve(parameters.size());
@@ -112,11 +118,25 @@ void SliderForm::add(const Parameter& parameter, double usual) {
   connect(line.number, &NumberEdit::edited, this, [this, index](const QString& text) {
     const auto value = fieldValue(lines_[index].parameter, text);
     lines_[index].number->setMarked(!value);
+    if (value) refused_->hide();
     if (value) set(index, value);
   });
+  connect(line.number, &NumberEdit::editingFinished, this, [this, index] { giveUp(index); });
   connect(line.back, &QToolButton::clicked, this, [this, index] { set(index, std::nullopt); });
   lines_.push_back(line);
   show(lines_.back());
+}
+
+/// What is not allowed and was left so stands there no longer as if it were in force.
+void SliderForm::giveUp(std::size_t index) {
+  Line& line = lines_[index];
+  const QString typed = line.number->numberText();
+  if (fieldValue(line.parameter, typed)) return;
+  show(line);
+  refused_->setText(tr("%1: \"%2\" is not allowed, %3 is; it stays %4.")
+                        .arg(labelOf(line.parameter), typed.trimmed(), allowedText(line.parameter),
+                             withUnit(value(line.parameter.name), word(line.parameter.unit))));
+  refused_->show();
 }
 
 void SliderForm::setValues(const Values& values) {

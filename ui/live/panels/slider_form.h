@@ -47,11 +47,13 @@ class SliderForm : public QWidget {
   };
   void add(const Parameter& parameter, double usual);
   void show(Line& line);
+  void giveUp(std::size_t line);
   void set(std::size_t line, std::optional<double> value);
 
   std::vector<Line> lines_;
   Values values_, usual_;
   QWidget* content_ = nullptr;
+  QLabel* refused_;  ///< what was typed last and is not allowed
 };
 
 }  // namespace btr::ui

@@ -26,7 +26,7 @@ TEST(ViscousFriction, IsItsCoefficient) {
 }
 
 TEST(JointStop, PushesBackBeyondItsEndsAndNeverHolds) {
-  const Numbers values{40, -0.3, 0.5, 2};
+  const Numbers values{40, -0.3, 0.5, 0.05};
   const auto torque = [&](double position, double rate) {
     return effect("joint_stop")->torque({.position = position, .rate = rate}, values);
   };

@@ -331,6 +331,22 @@ class TestGapPage : public QObject {
     QCOMPARE(error.series[0].points[7].y(), (s.asGiven[7] - s.recorded[7]) / s.noiseFloor);
   }
 
+  // What is not compared, as where rows were lost and the command stepped, is no straight line that looks measured.
+  void noCurveGoesOverAPause() {
+    GapReport report = sampleReport();
+    GapReport::Series& s = report.trials[4].series[0];
+    for (std::size_t i = 100; i < 200; ++i) s.recorded[i] = NAN;
+    s.recorded[300] = NAN;
+    const PlotData plot = overlayPlot(report, 4, 0);
+    std::vector<std::size_t> recorded;
+    for (const PlotSeries& series : plot.series)
+      if (series.name == "recorded") recorded.push_back(series.points.size());
+    QCOMPARE(recorded, (std::vector<std::size_t>{100, 299}));
+    PlotWidget widget;
+    widget.setData(plot);
+    QCOMPARE(widget.legendNames(), (QStringList{"recorded", "as given", "calibrated", "with effects"}));
+  }
+
   void rejectedEffectsAreShownWithTheirReason() {
     Bench bench;
     const EffectsTable& table = bench.page.view().effects();

@@ -12,7 +12,7 @@ namespace btr::ui {
 
 struct PlotSeries {
   enum class Style { line, thinLine, dotted, points, hollowPoints, lineWithPoints };
-  QString name;    ///< in the legend; unique within a plot; "" stays out of the legend
+  QString name;    ///< in the legend; unique within a plot but for what goes on behind a gap; "" stays out of it
   int colour = 0;  ///< index into the theme's series colours
   Style style = Style::line;
   std::vector<QPointF> points;  ///< x does not decrease where the style draws a line

@@ -28,7 +28,8 @@ void PlotLegend::setFont(const QFont& font) { font_ = font; }
 std::vector<PlotLegend::Entry> PlotLegend::entries() const {
   std::vector<Entry> all;
   for (const PlotSeries& series : data_.series)
-    if (!series.name.isEmpty()) all.push_back({series.name, &series, nullptr, {}});
+    if (!series.name.isEmpty() && std::ranges::find(all, series.name, &Entry::name) == all.end())
+      all.push_back({series.name, &series, nullptr, {}});
   for (const PlotBand& band : data_.bands) {
     const auto same = std::find_if(all.begin(), all.end(), [&](const Entry& entry) { return entry.name == band.name; });
     if (same != all.end())

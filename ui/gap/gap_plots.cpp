@@ -9,6 +9,7 @@
 #include "core/gap/report/report_figures.h"
 #include "core/gap/search/gap_report.h"
 #include "core/spec/figures.h"
+#include "ui/charts/broken_curve.h"
 #include "ui/common/numbers/format.h"
 
 namespace btr::ui {
@@ -70,9 +71,9 @@ PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t ser
   plot.yTitle = axisTitle(quantityOf(s.channel), word(s.unit));
   plot.yColumn = word(s.channel.substr(s.channel.rfind('.') + 1));
   const auto add = [&](const QString& name, Colour colour, const std::vector<double>& values) {
-    plot.series.push_back(line(name, colour, points(t.time_s, values), PlotSeries::Style::thinLine));
+    addBroken(plot, line(name, colour, points(t.time_s, values), PlotSeries::Style::thinLine));
   };
-  plot.series = {line(GapPlots::tr("recorded"), recorded, points(t.time_s, s.recorded))};
+  addBroken(plot, line(GapPlots::tr("recorded"), recorded, points(t.time_s, s.recorded)));
   add(GapPlots::tr("as given"), asGiven, s.asGiven);
   if (withCalibrated) add(GapPlots::tr("calibrated"), calibrated, s.calibrated);
   add(GapPlots::tr("with effects"), repaired, s.withEffects);
@@ -96,9 +97,9 @@ PlotData errorPlot(const GapReport& report, std::size_t trial, std::size_t serie
     return points(t.time_s, all);
   };
   plot.title = GapPlots::tr("Simulated − recorded");
-  plot.series = {line(GapPlots::tr("as given"), asGiven, error(s.asGiven), PlotSeries::Style::thinLine),
-                 line(GapPlots::tr("calibrated"), calibrated, error(s.calibrated), PlotSeries::Style::thinLine),
-                 line(GapPlots::tr("with effects"), repaired, error(s.withEffects), PlotSeries::Style::thinLine)};
+  addBroken(plot, line(GapPlots::tr("as given"), asGiven, error(s.asGiven), PlotSeries::Style::thinLine));
+  addBroken(plot, line(GapPlots::tr("calibrated"), calibrated, error(s.calibrated), PlotSeries::Style::thinLine));
+  addBroken(plot, line(GapPlots::tr("with effects"), repaired, error(s.withEffects), PlotSeries::Style::thinLine));
   if (t.time_s.size() > 1)
     plot.bands = {{GapPlots::tr("noise floor"), noise, {t.time_s.front(), t.time_s.back()}, {-1, -1}, {1, 1}}};
   addCursor(plot, cursor_s);

@@ -11,6 +11,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
 #include "core/spec/error.h"
+#include "ui/charts/broken_curve.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/numbers/format.h"
 
@@ -90,19 +91,19 @@ void RecordingPlot::draw() {
   int colour = 0;
   for (const Recording& trial : trials_) {
     if (const int column = trial.column(channel); column > 0)
-      plot.series.push_back({QFileInfo(word(trial.source)).fileName(),
-                             colour,
-                             PlotSeries::Style::line,
-                             curveOfChannel(trial, column),
-                             {},
-                             false});
+      addBroken(plot, {QFileInfo(word(trial.source)).fileName(),
+                       colour,
+                       PlotSeries::Style::line,
+                       curveOfChannel(trial, column),
+                       {},
+                       false});
     if (const int column = command.empty() ? -1 : trial.column(command); column > 0)
-      plot.series.push_back({tr("%1, command").arg(QFileInfo(word(trial.source)).fileName()),
-                             colour + 1,
-                             PlotSeries::Style::thinLine,
-                             curveOfChannel(trial, column),
-                             {},
-                             false});
+      addBroken(plot, {tr("%1, command").arg(QFileInfo(word(trial.source)).fileName()),
+                       colour + 1,
+                       PlotSeries::Style::thinLine,
+                       curveOfChannel(trial, column),
+                       {},
+                       false});
     colour += 2;
   }
   plot_->setData(std::move(plot));

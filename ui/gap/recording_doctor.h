@@ -12,7 +12,7 @@ namespace btr::ui {
 class RecordingDoctor {
  public:
   struct Opinion {
-    QStringList findings;           ///< what its columns say of the file
+    QStringList findings;           ///< what its columns say of the file; why it cannot be read, if it cannot
     QStringList notes;              ///< what reading it changed, its pauses and counts
     std::vector<Diagnosis> trials;  ///< what the file is divided into
   };

@@ -33,7 +33,15 @@ double noiseOverRows(const std::vector<double>& column, bool hasGaps, Impacts im
   return noiseFloor(rows, column, impacts);
 }
 
+double digitWritten(const Recording& recording, std::size_t column) {
+  return column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;
+}
+
 }  // namespace
+
+double stepOfNumbers(const Recording& recording, std::size_t column) {
+  return std::max(quantisationStep(recording.columns[column]), digitWritten(recording, column));
+}
 
 bool followsRowsNotStamps(const ChannelFloor& floor) {
   constexpr double clearly = 1.5;
@@ -71,8 +79,7 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps
     floor.ofTime = usualSpeed(values, floor.ofSensor, median(std::move(steps))) * floor.jitter_s;
     floor.level = std::max(floor.level, std::hypot(floor.ofSensor, floor.ofTime));
   }
-  const double digit = column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;
-  const double written = digit / std::sqrt(12.0);
+  const double written = digitWritten(recording, column) / std::sqrt(12.0);
   floor.few = !floor.shown && values.size() < leastNumbers;
   floor.level = floor.shown ? std::max(floor.level, written) : written > 0 ? written : withoutAnything;
   return floor;

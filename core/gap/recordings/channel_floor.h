@@ -26,6 +26,10 @@ enum class Stamps { asShown, off };
 /// stamps jitter and values do not, of the usual speed times the jitter.
 ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps stamps = Stamps::asShown);
 
+/// What one step of a column's numbers is: of its counts, or of the last digit that was written, if that is coarser; 0
+/// where neither shows.
+double stepOfNumbers(const Recording& recording, std::size_t column);
+
 /// Values are smoother over rows than over stamps: these were not given when the samples were taken.
 bool followsRowsNotStamps(const ChannelFloor& floor);
 

@@ -12,6 +12,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/fit/score.h"
+#include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/report/report_json.h"
 #include "core/gap/report/report_lead.h"
@@ -173,15 +174,16 @@ TEST(Analysis, ASpringThatHardensIsNoSpringWithARipple) {
   EXPECT_GT(report.ladder.front().error, 5) << "there was something to explain";
 }
 
+Extent motionIn(const GapProblem& recorded) {
+  Extent position;
+  for (const Recording& recording : recorded.recordings) position.add(recording.columns[2]);
+  return position;
+}
+
 TEST(EffectCandidates, PeriodsAreCountedWhereTheMotionPassesTwoOfThem) {
   const GapProblem recorded = recordedInItsSteps();
   const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
-  double low = INFINITY, high = -INFINITY;
-  for (const Recording& recording : recorded.recordings)
-    for (const double q : recording.columns[2]) {
-      low = std::min(low, q);
-      high = std::max(high, q);
-    }
+  const auto [low, high] = motionIn(recorded);
   const auto ripple = [&](const std::string& at) { return parametersAt(problem, "torque_ripple", at)[1]; };
   EXPECT_EQ(ripple("rig.hinge").name, "per_turn");
   EXPECT_EQ(ripple("rig.hinge").minimum, std::ceil(4 * M_PI / (high - low)));
@@ -194,12 +196,7 @@ TEST(EffectCandidates, PeriodsAreCountedWhereTheMotionPassesTwoOfThem) {
 TEST(EffectCandidates, EndsOfAFreeRangeAreLookedForWithinTheMotion) {
   const GapProblem recorded = recordedInItsSteps();
   const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
-  double low = INFINITY, high = -INFINITY;
-  for (const Recording& recording : recorded.recordings)
-    for (const double q : recording.columns[2]) {
-      low = std::min(low, q);
-      high = std::max(high, q);
-    }
+  const auto [low, high] = motionIn(recorded);
   const auto candidates = candidatesFor(problem, givenModel(problem), {"joint_stop"});
   ASSERT_EQ(candidates.size(), 1u) << "the rail was not measured";
   EXPECT_EQ(candidates[0].at, "rig.hinge");

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/extent.h"
-#include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/table/row_order.h"
 #include "core/spec/figures.h"
 
@@ -140,9 +140,8 @@ void emptyFrozen(Recording& trial) {
     if (!name || (name->quantity != "position_rad" && name->quantity != "position_m")) continue;
     if (name->part.empty() || name->ofRoot()) continue;
     const std::string joint = name->owner + "." + name->part;
-    const double digit = column < trial.places.lastDigit.size() ? trial.places.lastDigit[column] : 0;
     const PositionReadings position = readingsIn(trial.columns[column]);
-    const std::vector<Hold> holds = holdsOf(position, time, std::max(quantisationStep(trial.columns[column]), digit));
+    const std::vector<Hold> holds = holdsOf(position, time, stepOfNumbers(trial, column));
     const double usual = usualStep(position, holds);
     for (const Hold& hold : holds) {
       const std::size_t first = position.rows[hold.first], last = position.rows[hold.last];

@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/even_grid.h"
-#include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/table/row_order.h"
 #include "core/spec/figures.h"
 
@@ -92,10 +92,7 @@ std::size_t rhythmOfChanges(const Readings& readings) {
 std::vector<double> severalCountsOf(const Recording& trial, const Columns& columns) {
   constexpr double several = 5;
   std::vector<double> counts;
-  for (const std::size_t column : columns) {
-    const double digit = column < trial.places.lastDigit.size() ? trial.places.lastDigit[column] : 0;
-    counts.push_back(several * std::max(quantisationStep(trial.columns[column]), digit));
-  }
+  for (const std::size_t column : columns) counts.push_back(several * stepOfNumbers(trial, column));
   return counts;
 }
 

@@ -50,7 +50,7 @@ double droppedBefore(const std::vector<double>& zeros, double before_s, double p
   for (const double zero : zeros)
     if (const double whole = std::round((zero - before_s) / period_s); whole > 0) dropped.push_back(whole);
   std::ranges::sort(dropped);
-  dropped.erase(std::ranges::unique(dropped).begin(), dropped.end());
+  dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
   // From the last row on: the cost of all that follows, by what was dropped until then.
   std::vector<double> cost(dropped.size(), 0);
   for (std::size_t row = zeros.size(); row-- > 0;) {

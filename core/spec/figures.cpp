@@ -66,6 +66,10 @@ std::string tenthPercent(double share) { return written("%.1f %%", 100 * share);
 
 std::string signedPercent(double share) { return written("%+.0f %%", 100 * share); }
 
-std::string wholePercent(double share) { return toText(std::round(100 * share)) + " %"; }
+std::string wholePercent(double share) {
+  if (share > 0.995 && share < 1) return "more than 99 %";
+  if (share < 0.005 && share > 0) return "less than 1 %";
+  return toText(std::round(100 * share)) + " %";
+}
 
 }  // namespace btr

@@ -115,7 +115,7 @@ PlotData ladderPlot(const GapReport& report) {
   plot.yColumn = "error_noise_floors";
   plot.empty = GapPlots::tr("No step was taken");
   plot.yFromZero = true;
-  PlotSeries steps = line(GapPlots::tr("held-out error"), repaired, {}, PlotSeries::Style::lineWithPoints);
+  PlotSeries steps = line(GapPlots::tr("cross-validated error"), repaired, {}, PlotSeries::Style::lineWithPoints);
   for (std::size_t i = 0; i < report.ladder.size(); ++i) {
     const GapReport::Step& step = report.ladder[i];
     const double x = static_cast<double>(i);

@@ -61,17 +61,6 @@ std::string findingText(const GapReport::Effect& effect) {
   return text;
 }
 
-/// Of the squared error that the whole ladder takes, what the step that put the effect in took; NaN: there is none.
-double shareOf(const GapReport& report, const GapReport::Effect& effect) {
-  const auto& ladder = report.ladder;
-  if (ladder.size() < 2) return NAN;
-  const double all = std::pow(ladder.front().error, 2) - std::pow(ladder.back().error, 2);
-  for (std::size_t i = 1; i < ladder.size(); ++i)
-    if (ladder[i].what == "+ " + effect.effect + " at " + effect.at && all > 0)
-      return (std::pow(ladder[i - 1].error, 2) - std::pow(ladder[i].error, 2)) / all;
-  return NAN;
-}
-
 /// Errors by channel, the worst first: of the recordings that no fit saw if there are some.
 void addErrors(ReportLead& lead, const GapReport& report) {
   lead.heldOut = std::ranges::any_of(report.trials, [](const auto& trial) { return trial.heldOut; });
@@ -134,8 +123,7 @@ std::string explainedText(const GapReport& report) {
   return std::string(std::ranges::any_of(report.tried, &GapReport::Effect::accepted)
                          ? "Calibration and what was named together take "
                          : "Calibration takes ") +
-         (share > 0.995 ? "more than 99 %" : wholePercent(share)) +
-         " of the squared error that the simulator had as given (all channels, cross-validated).";
+         wholePercent(share) + " of the squared error that the simulator had as given (all channels, cross-validated).";
 }
 
 std::string restText(const GapReport& report) {
@@ -219,8 +207,7 @@ ReportLead leadOf(const GapReport& report) {
   const std::string warning = unseenWarning(report);
   lead.isWarning = !warning.empty();
   lead.headline = lead.isWarning ? capital(warning) : findingHeadline(report);
-  for (const std::size_t i : acceptedOf(report))
-    lead.findings.push_back({i, findingText(report.tried[i]), shareOf(report, report.tried[i])});
+  for (const std::size_t i : acceptedOf(report)) lead.findings.push_back({i, findingText(report.tried[i])});
   lead.explained = explainedText(report);
   lead.rest = restText(report);
   for (const GapReport::Disagreement& d : report.disagreements) lead.disagree.push_back(disagreementText(d));
@@ -231,10 +218,13 @@ ReportLead leadOf(const GapReport& report) {
   return lead;
 }
 
-std::string shareInWords(const ReportLead::Finding& finding) {
-  if (!std::isfinite(finding.share)) return "";
-  return "The squared error fell in steps, calibration first, then one effect after another: " +
-         wholePercent(finding.share) + " of the whole fall came with this step.";
+std::string withoutInWords(const GapReport::Effect& effect) {
+  constexpr double most = 1000;  // larger ones say nothing more
+  const double reduction = effect.heldoutErrorReduction;
+  if (!(reduction > 0) || reduction > 1) return "";
+  const double times = 1 / (1 - reduction);
+  return "Without it the cross-validated error (root mean square) is " +
+         (times > most ? "more than " + digits(most) : digits(times)) + " times as large.";
 }
 
 std::string leadHtml(const GapReport& report, const ReportLead& lead) {
@@ -243,10 +233,10 @@ std::string leadHtml(const GapReport& report, const ReportLead& lead) {
   if (!lead.findings.empty()) {
     html += "<ul>";
     for (const ReportLead::Finding& finding : lead.findings) {
-      const EffectLaw& law = report.tried[finding.effect].law;
+      const GapReport::Effect& effect = report.tried[finding.effect];
       html += "<li>" + escaped(finding.text);
-      if (const std::string share = shareInWords(finding); !share.empty()) html += " " + escaped(share);
-      if (!law.equation.empty()) html += "<br>" + equationHtml(law.equation);
+      if (const std::string without = withoutInWords(effect); !without.empty()) html += " " + escaped(without);
+      if (!effect.law.equation.empty()) html += "<br>" + equationHtml(effect.law.equation);
       html += "</li>\n";
     }
     html += "</ul>\n";

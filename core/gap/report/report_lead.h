@@ -18,8 +18,6 @@ struct ReportLead {
   struct Finding {
     std::size_t effect = 0;  ///< index into GapReport::tried
     std::string text;        ///< what it is, where, how large, and its rivals
-    /// Of the squared error that all steps together took, as it came in; NaN: not known.
-    double share = 0;
   };
   std::vector<Finding> findings;
   std::string explained;              ///< how much of the error all of it takes, a sentence; "" where it is not known
@@ -45,8 +43,8 @@ ReportLead leadOf(const GapReport& report);
 
 /// Findings, errors and what to do as HTML without a style of its own, for a page and for Qt's rich text.
 std::string leadHtml(const GapReport& report, const ReportLead& lead);
-/// Its part of what all steps together took, as a sentence; "" where that is not known. A small one is no doubt about
-/// the effect: calibration, which comes first, bends its numbers to take up what has no name yet.
-std::string shareInWords(const ReportLead::Finding& finding);
+/// How much larger the error is without the effect, all others kept, as a sentence; "" where that is not known. What
+/// its step took is no such measure: calibration, which comes first, bends its numbers to take up what has no name yet.
+std::string withoutInWords(const GapReport::Effect& effect);
 
 }  // namespace btr

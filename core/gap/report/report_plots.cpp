@@ -78,7 +78,8 @@ std::string ladder(const GapReport& report) {
   }
   svg += line(at(1), top - 6, at(1), bottom, "floor") + names;
   svg += text(at(1), top - 10, "noise floor", "text-anchor=\"middle\"");
-  svg += text((left + width - right) / 2, bottom + 36, "held-out error [noise floors, RMS]", "text-anchor=\"middle\"");
+  svg += text((left + width - right) / 2, bottom + 36, "cross-validated error [noise floors, RMS]",
+              "text-anchor=\"middle\"");
   return picture(bottom + 44, "Held-out error, step by step", svg);
 }
 

@@ -106,9 +106,9 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
         effect.screenRank = attempt.rank;
         effect.screenShare = attempt.share;
         effect.reason = attempt.reason;
-        // Whole numbers are not fitted, but they belong to what was found.
+        // Whole numbers are not fitted, but they belong to what was found where they could be others.
         for (const Parameter& p : attempt.candidate.declared)
-          if (p.integer) {
+          if (p.integer && p.minimum < p.maximum) {
             const double value = each.effect.parameters.at(p.name);
             effect.parameters.push_back({p.name, p.unit, p.byDefault, value, {value, value}, false, true});
           }

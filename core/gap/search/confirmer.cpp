@@ -54,9 +54,10 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
   const double excess = excessOf(without);
   const double taken = without.mean() - with.mean();
   if (comparison.t < limits.leastT)
-    return rejected("not better on held-out blocks (t = " + toText(std::round(10 * comparison.t) / 10) + ")");
+    return rejected(
+        "not better on blocks that it was not fitted to (t = " + toText(std::round(10 * comparison.t) / 10) + ")");
   if (comparison.gain < limits.leastGain)
-    return rejected("takes only " + percent(comparison.gain) + " of the held-out squared error");
+    return rejected("takes only " + percent(comparison.gain) + " of the cross-validated squared error");
   if (excess <= 0 || taken < limits.leastShareOfExcess * excess)
     return rejected("takes only " + percent(excess > 0 ? taken / excess : 0) + " of the excess error");
   // Standard errors count on sensitivities: where bounces or reversals make them rough, what takes most of a large
@@ -80,7 +81,7 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
                     digits(with.aligned.took, 2));
   return {true, besideAFarthestShift(comparison, without, with, service_.thresholds().shift),
           "takes " + percent(comparison.gain) +
-              " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")"};
+              " of the cross-validated squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")"};
 }
 
 std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vector<std::size_t>& which,

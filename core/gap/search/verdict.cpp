@@ -217,14 +217,11 @@ void judgeUntold(GapReport& report, const FitProblem& problem, const Findings& e
 }
 
 std::string errorText(const Findings& e) {
-  return "The held-out error falls from " + inFloors(e.given) + " as given over " + digits(std::sqrt(e.calibrated)) +
-         " calibrated to " + digits(std::sqrt(e.final)) + ". ";
+  return "The cross-validated error falls from " + inFloors(e.given) + " as given over " +
+         digits(std::sqrt(e.calibrated)) + " calibrated to " + digits(std::sqrt(e.final)) + ". ";
 }
 
-std::string explainedText(const GapReport& report) {
-  const double share = report.remainder.explainedShare;
-  return share > 0.99 ? "more than 99 %" : wholePercent(share);
-}
+std::string explainedText(const GapReport& report) { return wholePercent(report.remainder.explainedShare); }
 
 /// A large rest weighs more than the share that a name explains, however large that is.
 std::string caveatText(const GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
@@ -267,11 +264,8 @@ std::string unseenText(const GapReport& report, bool named, std::size_t fittedTr
   return text;
 }
 
-/// A share that is not quite all is not said to be all.
-std::string shareText(double share) { return share > 0.99 && share < 1 ? "more than 99 %" : wholePercent(share); }
-
 std::string ofGivenText(const GapReport& report) {
-  return shareText(report.explainedShare) + " of the squared error of the simulator as given";
+  return wholePercent(report.explainedShare) + " of the squared error of the simulator as given";
 }
 
 /// Other numbers took their part of it, too.
@@ -296,7 +290,8 @@ Named namedIn(const GapReport& report) {
 std::string lawText(const GapReport& report) {
   if (!report.law.known()) return "";
   return "Its shape was measured: " + report.law.sentence + ". With it " + digits(report.law.error) + noiseFloors +
-         " are left; it takes " + shareText(report.law.shareOfRest) + " of the squared error that is left without it. ";
+         " are left; it takes " + wholePercent(report.law.shareOfRest) +
+         " of the squared error that is left without it. ";
 }
 
 void judgeNamed(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
@@ -342,7 +337,7 @@ void judgeSufficient(GapReport& report, const Findings& e, const SearchThreshold
   report.verdict = Verdict::parametersSuffice;
   report.sentence = errorText(e) + "Other numbers for what is calibrated suffice; " +
                     (report.tried.empty() ? "nothing is left for a missing effect to explain. "
-                                          : "no missing effect improves the held-out error. ");
+                                          : "no missing effect improves the cross-validated error. ");
   if (e.final > limits.stillNoise && e.colour.stands(limits))
     report.sentence += "What is left is small, but not noise alone: " + colourText(e) +
                        ". Something small may be missing, or the sensor's noise is not white. ";

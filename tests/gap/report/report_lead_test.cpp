@@ -31,23 +31,26 @@ TEST(ReportLead, SaysWhatWasFoundWhereAndHowLarge) {
   EXPECT_THAT(lead.findings[0].text, HasSubstr("cannot tell it from gear elasticity at leg.knee"));
 }
 
-// The ladder falls from 25.6 over 12.8 to 1.19 noise floors: of 25.6² − 1.19² the last step took 12.8² − 1.19².
-TEST(ReportLead, GivesEachEffectItsShareOfTheSquaredError) {
-  const ReportLead lead = leadOf(sampleReport());
-  const double all = 25.6 * 25.6 - 1.19 * 1.19, own = 12.8 * 12.8 - 1.19 * 1.19;
-  EXPECT_NEAR(lead.findings.at(0).share, own / all, 1e-12);
-  GapReport without = sampleReport();
-  without.ladder.pop_back();
-  EXPECT_TRUE(std::isnan(leadOf(without).findings.at(0).share));
+// 1 − 0.9 is a tenth: without the effect the error is ten times as large.
+TEST(ReportLead, SaysHowMuchLargerTheErrorIsWithoutAnEffect) {
+  GapReport::Effect effect;
+  effect.heldoutErrorReduction = 0.9;
+  EXPECT_THAT(withoutInWords(effect), HasSubstr("is 10 times as large"));
+  effect.heldoutErrorReduction = 0.99999;
+  EXPECT_THAT(withoutInWords(effect), HasSubstr("is more than 1000 times as large"));
+  for (const double nothing : {0.0, -0.1, static_cast<double>(NAN)}) {
+    effect.heldoutErrorReduction = nothing;
+    EXPECT_EQ(withoutInWords(effect), "");
+  }
 }
 
-// A step's share of the fall and what all steps take together are different things, and are not said in the same words.
-TEST(ReportLead, TellsAStepFromAllOfThem) {
+// What is not quite all, or not quite nothing, is not rounded to it.
+TEST(ReportLead, DoesNotRoundToAll) {
   GapReport report = sampleReport();
   report.explainedShare = 0.999;
-  const ReportLead lead = leadOf(report);
-  EXPECT_THAT(shareInWords(lead.findings.at(0)), HasSubstr("of the whole fall came with this step"));
-  EXPECT_THAT(lead.explained, HasSubstr("together take more than 99 % of the squared error that the simulator had"));
+  EXPECT_THAT(leadOf(report).explained, HasSubstr("together take more than 99 % of the squared error that the"));
+  for (GapReport::Channel& c : report.channels) c.heldoutWithEffects = c.heldoutAsGiven / 1000;
+  EXPECT_THAT(leadOf(report).errorText, HasSubstr("more than 99 % less"));
 }
 
 TEST(ReportLead, GivesErrorsInTheChannelsUnitOfRecordingsThatNoFitSaw) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -106,6 +107,21 @@ TEST(CandidateSizes, AWaveOfAnyPhaseIsSeenWhereManyEffectsAreTried) {
       EXPECT_NEAR(start.at("per_turn"), 16, 4) << phase;
       EXPECT_LT(std::abs(std::remainder(start.at("phase_rad") - phase, 2 * M_PI)), 1.2);
     }
+  }
+}
+
+// The rail is pushed by nothing: whether a servo follows its sensor is no question there.
+TEST(CandidateSizes, OnlyAServosSensorMayCloseALoop) {
+  const GapProblem given = recordedInItsSteps();
+  const FitProblem problem = makeFitProblem(given, given.recordings, library());
+  for (const char* effect : {"position_offset", "sensor_scale", "sensor_lag"}) {
+    std::map<std::string, bool> closes;
+    for (const EffectCandidate& candidate :
+         candidatesFor(problem, givenModel(problem), {effect}, SearchThresholds::Candidates{}))
+      closes[candidate.at] =
+          std::ranges::any_of(candidate.variants, [](const Values& v) { return v.at("closes_loop") == 1; });
+    EXPECT_TRUE(closes.at("rig.hinge")) << effect;
+    EXPECT_FALSE(closes.at("rig.rail")) << effect;
   }
 }
 

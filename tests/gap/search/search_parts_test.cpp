@@ -122,7 +122,7 @@ TEST(Confirmer, RejectsWhatDoesNotLowerTheHeldOutErrorClearly) {
   const Acceptance acceptance = confirmer.judge(scoredAt(3), scoredAt(2.9, 1), 0);
   EXPECT_FALSE(acceptance.passes);
   EXPECT_LT(acceptance.comparison.t, options.thresholds.confirmation.leastT);
-  EXPECT_THAT(acceptance.reason, HasSubstr("not better on held-out blocks"));
+  EXPECT_THAT(acceptance.reason, HasSubstr("not better on blocks that it was not fitted to"));
 }
 
 TEST(Confirmer, RejectsAClearGainThatIsTooSmallForTheExcess) {
@@ -142,7 +142,7 @@ TEST(Confirmer, AsksTheThresholdsOfTheOptions) {
   FitService service(problemOf(recordedInItsSteps()), options);
   const std::vector<FitParameter> held;
   EXPECT_THAT(Confirmer(service, held).judge(scoredAt(3, 0.5), scoredAt(2, 0.5), 0).reason,
-              HasSubstr("of the held-out squared error"));
+              HasSubstr("of the cross-validated squared error"));
 }
 
 TEST(Confirmer, AcceptsWhatIsMissingAndTheRoundPutsItFirst) {

@@ -14,6 +14,7 @@
 #include "core/gap/recordings/extent.h"
 #include "core/gap/search/laws/law_terms.h"
 #include "core/gap/search/thresholds.h"
+#include "core/plugin/joint_effect.h"
 #include "core/sim/effect_places.h"
 
 namespace btr {
@@ -50,6 +51,16 @@ std::optional<std::size_t> positionOf(const FitTrial& trial, const std::string& 
     if (channel && channel->owner + "." + channel->part == at) return c;
   }
   return {};
+}
+
+/// A joint whose drive follows no position has no loop that a sensor could close.
+bool hasNoLoop(const FitProblem& problem, const std::string& at) {
+  const Scene scene = problem.sceneOf(problem.given, 0);
+  for (const SceneRobot& robot : scene.robots)
+    for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
+      if (at == robot.name + "." + robot.model.joints[j].name)
+        return robot.drives[j].kind != Drive::Kind::servo && robot.drives[j].kind != Drive::Kind::dcMotor;
+  return false;
 }
 
 /// Where a joint's position was in all recordings together [rad or m]; nowhere for what is no measured joint.
@@ -199,6 +210,7 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
       p.minimum = std::max(p.minimum, std::floor(1000 * problem.givenStep_s) + 1);
       p.byDefault = std::max(p.byDefault, p.minimum);
     }
+    if (p.name == closesLoopParameter().name && hasNoLoop(problem, at)) p.maximum = p.byDefault = p.minimum;
   }
   if (const std::string periods = made->periodsPerTurn(); !periods.empty())
     showPeriods(declared, periods, positionsOf(problem, at), thresholds);
@@ -216,6 +228,7 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
     const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
     if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum) ||
+        !std::ranges::equal(shown, candidate.declared, {}, &Parameter::maximum, &Parameter::maximum) ||
         !std::ranges::equal(shown, candidate.declared, {}, &Parameter::byDefault, &Parameter::byDefault)) {
       candidate.declared = shown;
       candidate.variants = variantsOf(shown, thresholds);

@@ -478,7 +478,7 @@ class TestGapPage : public QObject {
     const EffectsTable& table = bench.page.view().effects();
     QVERIFY(table.horizontalHeaderItem(EffectsTable::gain)->toolTip().contains("cross-validated"));
     QCOMPARE(table.item(0, EffectsTable::qValue)->text(), QString("0.0076"));
-    QCOMPARE(table.item(2, EffectsTable::parameters)->text(), QString::fromUtf8("torque_nm = 0.004 N·m (no interval)"));
+    QCOMPARE(table.item(2, EffectsTable::parameters)->text(), QString::fromUtf8("torque_nm = 0.004 N·m"));
   }
 
   void adoptionSaysWhyItIsNotPossible() {

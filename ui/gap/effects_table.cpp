@@ -57,18 +57,12 @@ QString unitOfPath(const std::string& path) {
   return leaf == "p" || leaf == "i" || leaf == "d" ? QString() : QStringLiteral("1");
 }
 
-QString numberText(const GapReport::Number& n) {
-  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + intervalsOf(n)) +
-         (n.atBound ? EffectsTable::tr(", at its bound") : QString()) +
-         (n.excited ? QString() : EffectsTable::tr(", not excited"));
-}
-
 }  // namespace
 
 EffectsTable::EffectsTable(QWidget* parent) : QTableWidget(parent) {
   setAccessibleName(tr("Effects that were tried"));
   setObjectName("effects");
-  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Reason"), tr("Held-out gain"), tr("p"), tr("q"),
+  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Reason"), tr("Cross-validated gain"), tr("p"), tr("q"),
                   tr("Screening"), tr("Cannot be told from"), tr("Parameters [95 %]")});
   horizontalHeaderItem(gain)->setToolTip(
       tr("1 − error with it / error without, cross-validated: alternate blocks of the trials predict each other, with "
@@ -94,7 +88,7 @@ void EffectsTable::setReport(const GapReport& report) {
     fillCell(*this, row, at, word(e.at));
     fillCell(*this, row, verdict, e.accepted ? tr("accepted") : tr("rejected"));
     QStringList numbers, others;
-    for (const GapReport::Number& n : e.parameters) numbers << numberText(n);
+    for (const GapReport::Number& n : e.parameters) numbers << word(inWordsWithRivals(n));
     for (const GapReport::Rival& r : e.rivals)
       others << tr("%1 (error × %2)").arg(word(inWords(r)), word(brief(r.heldoutErrorRatio)));
     fillCell(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));

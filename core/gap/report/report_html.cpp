@@ -107,9 +107,7 @@ std::string effectCard(const GapReport& report, const ReportLead::Finding& findi
 
 std::string parametersText(const GapReport::Effect& e) {
   std::string text;
-  for (const GapReport::Number& n : e.parameters)
-    text += (text.empty() ? "" : "; ") + n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " +
-            intervalsOf(n) + (n.atBound ? ", at its bound" : "") + (n.excited ? "" : ", not excited");
+  for (const GapReport::Number& n : e.parameters) text += (text.empty() ? "" : "; ") + inWordsWithRivals(n);
   return text;
 }
 

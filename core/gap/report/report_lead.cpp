@@ -41,12 +41,7 @@ std::string findingHeadline(const GapReport& report) {
 
 std::string sizesOf(const GapReport::Effect& effect) {
   std::string text;
-  for (const GapReport::Number& n : effect.parameters) {
-    text += (text.empty() ? "" : ", ") + n.name + " = " + digits(n.value) + (n.unit.empty() ? "" : " " + n.unit);
-    if (n.ci95.known() && n.ci95.high > n.ci95.low) text += " " + brief(n.ci95);
-    if (n.atBound) text += ", at its bound";
-    if (!n.excited) text += ", not identifiable";
-  }
+  for (const GapReport::Number& n : effect.parameters) text += (text.empty() ? "" : "; ") + inWords(n);
   return text;
 }
 

@@ -55,13 +55,22 @@ bool isWiderAmongRivals(const GapReport::Number& number) {
 }
 
 std::string brief(const GapReport::Interval& interval) {
-  const auto side = [](double value) { return std::isfinite(value) ? brief(value) : std::string("…"); };
+  constexpr int usual = 3, most = 6;
+  int count = usual;
+  while (count < most && digits(interval.low, count) == digits(interval.high, count)) ++count;
+  const auto side = [&](double value) { return std::isfinite(value) ? digits(value, count) : std::string("…"); };
   return "[" + side(interval.low) + ", " + side(interval.high) + "]";
 }
 
-std::string intervalsOf(const GapReport::Number& number) {
-  return (number.ci95.known() ? brief(number.ci95) : "(no interval)") +
-         (number.amongRivals.known() ? ", among rivals " + brief(number.amongRivals) : "");
+std::string inWords(const GapReport::Number& number) {
+  if (!number.excited) return number.name + " not identifiable";
+  const bool hasWidth = number.ci95.known() && number.ci95.high > number.ci95.low;
+  return number.name + " = " + digits(number.value) + (number.unit.empty() ? "" : " " + number.unit) +
+         (hasWidth ? " " + brief(number.ci95) : "") + (number.atBound ? ", at its bound" : "");
+}
+
+std::string inWordsWithRivals(const GapReport::Number& number) {
+  return inWords(number) + (number.amongRivals.known() ? ", among rivals " + brief(number.amongRivals) : "");
 }
 
 std::string headline(GapReport::Verdict verdict) {

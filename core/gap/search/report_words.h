@@ -24,10 +24,12 @@ std::string inWords(const std::vector<const GapReport::Effect*>& finding);
 std::string inWords(const GapReport::Rival& rival);
 /// Whether rivals would put a number where its own interval does not hold it: more than twice as wide with them.
 bool isWiderAmongRivals(const GapReport::Number& number);
-/// "[0.047, 0.055]"; an open side is "…".
+/// "[0.047, 0.055]", with as many digits as tell its ends apart (3 to 6); an open side is "…".
 std::string brief(const GapReport::Interval& interval);
-/// "[0.047, 0.055], among rivals [0.02, 0.055]", or "(no interval)".
-std::string intervalsOf(const GapReport::Number& number);
+/// "width_rad = 0.051 rad [0.047, 0.055]", without an interval where there is none; "width_rad not identifiable".
+std::string inWords(const GapReport::Number& number);
+/// The same, and ", among rivals [0.02, 0.055]".
+std::string inWordsWithRivals(const GapReport::Number& number);
 /// What the verdict means, a few words.
 std::string headline(GapReport::Verdict verdict);
 /// Error of the recordings that no fit saw, root mean square over their channels in noise floors; nothing if none was

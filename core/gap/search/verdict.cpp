@@ -37,19 +37,9 @@ double motionOf(const FitProblem& problem) {
   return most;
 }
 
-/// With as many digits as it takes to tell the ends apart.
-std::string textOf(const GapReport::Interval& interval) {
-  constexpr int usual = 3, most = 6;
-  int count = usual;
-  while (count < most && digits(interval.low, count) == digits(interval.high, count)) ++count;
-  return "[" + digits(interval.low, count) + " … " + digits(interval.high, count) + "]";
-}
-
 std::string numbersText(const GapReport::Effect& effect) {
   std::string numbers;
-  for (const GapReport::Number& p : effect.parameters)
-    numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) + (p.unit.empty() ? "" : " " + p.unit) +
-               (p.ci95.high > p.ci95.low ? " " + textOf(p.ci95) : "") + (p.atBound ? " (at its bound)" : "");
+  for (const GapReport::Number& p : effect.parameters) numbers += (numbers.empty() ? "" : "; ") + inWords(p);
   return numbers.empty() ? "" : " (" + numbers + ")";
 }
 
@@ -92,8 +82,7 @@ std::string movedByRivalsText(const GapReport& report) {
   std::string text;
   const auto tell = [&](const std::string& name, const GapReport::Number& number) {
     if (isWiderAmongRivals(number))
-      text +=
-          (text.empty() ? "" : ", ") + name + " " + textOf(number.amongRivals) + " instead of " + textOf(number.ci95);
+      text += (text.empty() ? "" : ", ") + name + " " + brief(number.amongRivals) + " instead of " + brief(number.ci95);
   };
   for (const GapReport::Number& number : report.calibrated) tell(number.name, number);
   for (const GapReport::Effect& effect : report.tried)

@@ -24,6 +24,7 @@
 namespace btr {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -118,7 +119,7 @@ TEST(GapReport, ARejectedEffectHasNoInterval) {
   const auto document = nlohmann::json::parse(readFile(folder.file("r/report.json")));
   EXPECT_TRUE(document["tried"][2]["parameters"]["torque_nm"]["ci95"].is_null());
   EXPECT_FALSE(loadReport(folder.file("r")).tried[2].parameters[0].ci95.known());
-  EXPECT_THAT(toHtml(sampleReport()), HasSubstr("torque_nm = 0.004 N·m (no interval)"));
+  EXPECT_THAT(toHtml(sampleReport()), AllOf(HasSubstr("torque_nm = 0.004 N·m<"), Not(HasSubstr("0.004 N·m ["))));
   GapReport held = sampleReport();
   held.calibrated[0].ci95 = GapReport::Interval::none();
   EXPECT_THAT(toPlainText(held), Not(HasSubstr("[nan")));

@@ -103,10 +103,10 @@ TEST(Verdict, SaysWhichNumbersTheChoiceAmongRivalsDecides) {
   report.calibrated = {{"servo.p", "", 5, 7, {6.9, 7.1}, false, true, {6.9, 9.2}},
                        {"servo.d", "", 5, 7, {6, 8}, false, true, {5.5, 8}}};
   const auto said = [&] { return judged(400, 100, 1, true, false, recorded(), {}, report).sentence; };
-  EXPECT_THAT(said(), HasSubstr("decides of other numbers, too; over all of them: servo.p [6.9 … 9.2] instead of "
-                                "[6.9 … 7.1]. "));
+  EXPECT_THAT(said(), HasSubstr("decides of other numbers, too; over all of them: servo.p [6.9, 9.2] instead of "
+                                "[6.9, 7.1]. "));
   report.calibrated[0].ci95 = {6.9012, 6.9034};
-  EXPECT_THAT(said(), HasSubstr("[6.9 … 9.2] instead of [6.901 … 6.903]. "));
+  EXPECT_THAT(said(), HasSubstr("[6.9, 9.2] instead of [6.901, 6.903]. "));
   report.calibrated[0].amongRivals = report.calibrated[0].ci95;
   EXPECT_THAT(said(), Not(HasSubstr("instead of")));
 }

@@ -578,6 +578,57 @@ class TestGapPage : public QObject {
     QVERIFY(!own.isChanged());
   }
 
+  void aMappingForTheWholeFolderServesItsOtherRecordings() {
+    QTemporaryDir folder;
+    const QString one = file(folder, "one.csv", "t [ms],q [°]\n0,10\n1,20\n");
+    const QString two = file(folder, "two.csv", "t [ms],q [°]\n0,20\n1,10\n");
+    MappingForm form;
+    form.open(one);
+    form.addRow();
+    type(form.table(), 1, MappingForm::channel, "leg.knee.position_rad");
+    type(form.table(), 1, MappingForm::column, "q [°]");
+    // The headings say the units.
+    QCOMPARE(form.table().item(0, MappingForm::unit)->text(), QString("ms"));
+    QCOMPARE(form.table().item(1, MappingForm::unit)->text(), QString("deg"));
+    auto* forAll = form.findChild<QCheckBox*>("mappingForAll");
+    QVERIFY(!forAll->isChecked());
+    QCOMPARE(form.file(), folder.filePath("one.mapping.json"));
+    forAll->click();
+    form.save();
+    QCOMPARE(form.file(), folder.filePath("mapping.json"));
+    MappingForm other;
+    other.open(two);
+    QCOMPARE(other.file(), folder.filePath("mapping.json"));
+    QVERIFY(other.isValid() && !other.isChanged());
+    QVERIFY(other.findChild<QCheckBox*>("mappingForAll")->isChecked());
+    // What is made of it for one recording is that one's; what another form wrote is not written over.
+    type(other.table(), 1, MappingForm::offset, "0.5");
+    other.findChild<QCheckBox*>("mappingForAll")->click();
+    other.save();
+    QCOMPARE(other.file(), folder.filePath("two.mapping.json"));
+    other.findChild<QCheckBox*>("mappingForAll")->click();
+    QVERIFY_EXCEPTION_THROWN(other.save(), InputError);
+    QCOMPARE(loadMapping(folder.filePath("mapping.json").toStdString()).columns[1].offset, 0.0);
+  }
+
+  void unitsAreReadFromHeadings() {
+    const auto factor = [](const char* column, const char* channel) {
+      return unitInHeading(QString::fromUtf8(column), channel).value_or(0);
+    };
+    const double deg = std::numbers::pi / 180;
+    QCOMPARE(factor("angle (deg)", "a.b.position_rad"), deg);
+    QCOMPARE(factor("angle / °", "a.b.position_rad"), deg);
+    QCOMPARE(factor("pos_deg", "a.b.position_rad"), deg);
+    QCOMPARE(factor("speed [rpm]", "a.b.velocity_rad_s"), std::numbers::pi / 30);
+    QCOMPARE(factor("torque [mNm]", "a.b.torque_nm"), 1e-3);
+    QCOMPARE(factor("Time {us}", "time_s"), 1e-6);
+    QCOMPARE(factor("angle (deg)", "a.b.torque_nm"), 0.0);  // not a torque's unit
+    QCOMPARE(factor("q", "a.b.position_rad"), 0.0);
+    const MappingDraft draft = MappingDraft::guess({"Time [ms]", "q"});
+    QCOMPARE(draft.rows.at(0).column, QString("Time [ms]"));
+    QCOMPARE(draft.rows.at(0).scale, QString("0.001"));
+  }
+
   // Half of a range is none: a form too narrow for all columns is scrolled.
   void whatAColumnGivesIsNeverCut() {
     QTemporaryDir folder;

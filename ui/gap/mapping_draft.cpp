@@ -1,6 +1,7 @@
 #include "ui/gap/mapping_draft.h"
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,11 +42,42 @@ std::string columnOf(const json& entry) {
   return column.is_number() ? numberedColumn(column.get<std::size_t>()) : column.get<std::string>();
 }
 
+/// A heading's name and what may be its unit: "t [ms]", "angle (°)", "pos / mm", "current_mA".
+std::pair<QString, QString> nameAndUnit(const QString& column) {
+  static const QRegularExpression bracketed(R"(^(.*?)\s*[\[({]([^\[({]*)[\])}]\s*$)"), divided(R"(^(.*?)\s+/\s+(.*)$)"),
+      ending(R"(^(.*)_([^_]*)$)");
+  for (const QRegularExpression* form : {&bracketed, &divided, &ending})
+    if (const auto found = form->match(column); found.hasMatch())
+      return {found.captured(1).trimmed(), found.captured(2).trimmed()};
+  return {column.trimmed(), {}};
+}
+
 bool isTime(const QString& column) {
-  const QString name = column.toLower();
-  for (const char* known : {"time_s", "time", "t", "timestamp", "t_s", "seconds", "t_ms", "time_ms"})
-    if (name == known) return true;
+  const QString name = nameAndUnit(column).first.toLower();
+  for (const char* known : {"time", "t", "timestamp", "seconds"})
+    if (name == known) return unitInHeading(column, "time_s") || name == column.toLower();
   return false;
+}
+
+/// As unitsFor() writes it.
+QString unitName(const QString& written) {
+  constexpr std::array<std::pair<const char*, const char*>, 13> others{{{"°", "deg"},
+                                                                        {"degree", "deg"},
+                                                                        {"degrees", "deg"},
+                                                                        {"°/s", "deg/s"},
+                                                                        {"rpm", "rev/min"},
+                                                                        {"rev", "turns"},
+                                                                        {"sec", "s"},
+                                                                        {"seconds", "s"},
+                                                                        {"us", "µs"},
+                                                                        {"μs", "µs"},
+                                                                        {"nm", "n·m"},
+                                                                        {"mnm", "mn·m"},
+                                                                        {"percent", "%"}}};
+  const QString lower = written.toLower();
+  for (const auto& [other, name] : others)
+    if (lower == QString::fromUtf8(other)) return QString::fromUtf8(name);
+  return lower;
 }
 
 }  // namespace
@@ -55,7 +87,8 @@ MappingDraft MappingDraft::guess(const QStringList& columns) {
   bool hasTime = false;
   for (const QString& column : columns) {
     if (!hasTime && isTime(column)) {
-      draft.rows.insert(draft.rows.begin(), {"time_s", column, column.endsWith("_ms") ? "0.001" : "1", "0", false});
+      const QString scale = QString::fromStdString(toText(unitInHeading(column, "time_s").value_or(1)));
+      draft.rows.insert(draft.rows.begin(), {"time_s", column, scale, "0", false});
       hasTime = true;
     } else if (parseChannel(column.toStdString())) {
       draft.rows.push_back({column, column, "1", "0", false});
@@ -150,6 +183,13 @@ std::vector<std::pair<QString, double>> unitsFor(const QString& channel) {
   if (ends("_a")) return {{"A", 1}, {"mA", 1e-3}};
   if (ends("duty")) return {{"1", 1}, {"%", 1e-2}};
   return {{"1", 1}};
+}
+
+std::optional<double> unitInHeading(const QString& column, const QString& channel) {
+  const QString unit = unitName(nameAndUnit(column).second);
+  for (const auto& [name, factor] : unitsFor(channel))
+    if (name.toLower() == unit) return factor;
+  return {};
 }
 
 CsvPreview previewCsv(const QString& path) {

@@ -2,6 +2,7 @@
 #include <QString>
 #include <QStringList>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ MappingProblems problemsOf(const MappingDraft& draft, const QStringList& columns
 
 /// Units in which a file may give a channel, with the factor to the channel's own: "deg" → 0.0174533.
 std::vector<std::pair<QString, double>> unitsFor(const QString& channel);
+/// The factor of the unit that a column's heading says ("angle [°]", "t_ms", "pos / mm"), if it is one of the
+/// channel's.
+std::optional<double> unitInHeading(const QString& column, const QString& channel);
 
 /// The first line of a CSV file as column names, and the smallest and largest number of each among its first rows.
 struct CsvPreview {

@@ -1,6 +1,7 @@
 #include "ui/gap/mapping_form.h"
 
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -133,6 +134,11 @@ MappingForm::MappingForm(QWidget* parent)
   remove_ = new QPushButton(themeIcon("list-remove"), tr("Remove channel"), this);
   save_ = new QPushButton(themeIcon("document-save"), tr("Save mapping"), this);
   save_->setObjectName("saveMapping");
+  forAll_ = new QCheckBox(tr("For all recordings of the folder"), this);
+  forAll_->setObjectName("mappingForAll");
+  forAll_->setToolTip(
+      tr("Saves it as mapping.json: for every recording of the folder that has no mapping of its own name"));
+  connect(forAll_, &QCheckBox::clicked, this, &MappingForm::setForAll);
   connect(add_, &QPushButton::clicked, this, &MappingForm::addRow);
   connect(remove_, &QPushButton::clicked, this, &MappingForm::removeRow);
   connect(save_, &QPushButton::clicked, this, [this] {
@@ -146,6 +152,7 @@ MappingForm::MappingForm(QWidget* parent)
   buttons->addWidget(add_);
   buttons->addWidget(remove_);
   buttons->addStretch(1);
+  buttons->addWidget(forAll_);
   buttons->addWidget(save_);
   for (const auto& [action, keys] : {std::pair{undo_.createUndoAction(this), QKeySequence::Undo},
                                      std::pair{undo_.createRedoAction(this), QKeySequence::Redo}}) {
@@ -169,11 +176,11 @@ void MappingForm::open(const QString& recording, const QString& mapping) {
   const bool known = !found.isEmpty() && QFileInfo::exists(found);
   MappingDraft draft = known ? MappingDraft::fromJson(readFile(found.toStdString()), found.toStdString())
                              : MappingDraft::guess(preview.columns);
-  const QFileInfo info(recording);
   recording_ = recording;
   // A mapping of other recordings, such as the scene's, stays as it is: what is made of it for this one is this one's.
   const bool fits = !found.isEmpty() && (!known || problemsOf(draft, preview.columns).empty());
-  file_ = fits ? found : info.path() + '/' + info.completeBaseName() + ".mapping.json";
+  file_ = fits ? found : fileOfOne();
+  readFrom_ = known && file_ == found ? found : QString();
   preview_ = std::move(preview);
   draft_ = std::move(draft);
   undo_.clear();
@@ -185,12 +192,27 @@ void MappingForm::open(const QString& recording, const QString& mapping) {
   show();
 }
 
+QString MappingForm::fileOfOne() const {
+  const QFileInfo info(recording_);
+  return info.path() + '/' + info.completeBaseName() + ".mapping.json";
+}
+
+QString MappingForm::fileOfAll() const { return QFileInfo(recording_).path() + "/mapping.json"; }
+
+void MappingForm::setForAll(bool all) {
+  file_ = all ? fileOfAll() : fileOfOne();
+  show();
+}
+
 void MappingForm::setChannels(const QStringList& channels) { channels_ = channels; }
 
 void MappingForm::save() {
   if (const MappingProblems wrong = problems(); !wrong.empty())
     throw InputError(file_.toStdString() + ": not saved: " + wrong.begin()->second.toStdString());
+  if (file_ != readFrom_ && QFileInfo::exists(file_))
+    throw InputError(file_.toStdString() + ": not saved: it is there already, for other recordings; look at it first");
   writeFile(file_.toStdString(), draft_.toJson());
+  readFrom_ = file_;
   undo_.setClean();
   show();
   emit saved(file_);
@@ -227,6 +249,10 @@ void MappingForm::readCell(int row, int at) {
   const QString text = item->text().trimmed();
   if (at == channel) changed.channel = text;
   if (at == column) changed.column = text;
+  // A scale that nobody chose is the one of the unit in the heading.
+  if ((at == channel || at == column) && changed.scale == MappingRow{}.scale)
+    if (const auto factor = unitInHeading(changed.column, changed.channel))
+      changed.scale = QString::fromStdString(toText(*factor));
   if (at == scale) changed.scale = text;
   if (at == offset) changed.offset = text;
   if (at == flip) changed.flipped = item->checkState() == Qt::Checked;
@@ -281,6 +307,9 @@ void MappingForm::show() {
   problem_->setPalette(colours);
   problem_->setText(recording_.isEmpty() ? QString() : texts.mid(0, 3).join('\n'));
   save_->setEnabled(wrong.empty() && !recording_.isEmpty());
+  // Where the mapping is another file's (the scene's, one that was chosen), that is not asked.
+  forAll_->setVisible(!recording_.isEmpty() && (file_ == fileOfOne() || file_ == fileOfAll()));
+  forAll_->setChecked(!recording_.isEmpty() && file_ == fileOfAll());
   add_->setEnabled(!recording_.isEmpty());
   remove_->setEnabled(!recording_.isEmpty());
 }

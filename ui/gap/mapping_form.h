@@ -4,6 +4,7 @@
 
 #include "ui/gap/mapping_draft.h"
 
+class QCheckBox;
 class QLabel;
 class QPushButton;
 class QTableWidget;
@@ -29,12 +30,15 @@ class MappingForm : public QWidget {
   MappingProblems problems() const { return problemsOf(draft_, preview_.columns); }
   bool isValid() const { return problems().empty(); }
   QString recording() const { return recording_; }
-  /// NAME.mapping.json beside the recording, or the file that was given where that fits the recording.
+  /// NAME.mapping.json beside the recording, mapping.json where it is for all of the folder, or the file that was given
+  /// where that fits the recording.
   QString file() const { return file_; }
   bool isChanged() const { return !undo_.isClean(); }
   /// Somebody changed it: a guess that nobody touched is not saved, and nothing is lost with it.
   bool isEdited() const { return isChanged() && undo_.canUndo(); }
-  /// Throws InputError if something is not allowed or the file cannot be written.
+  /// Whether it is saved as mapping.json, for all recordings of the folder.
+  void setForAll(bool all);
+  /// Throws InputError if something is not allowed, the file cannot be written, or one that was not read from is there.
   void save();
 
   QTableWidget& table() { return *table_; }
@@ -50,16 +54,20 @@ class MappingForm : public QWidget {
   void change(const QString& text, MappingDraft next);
   void show();
   void readCell(int row, int column);
+  QString fileOfOne() const;
+  QString fileOfAll() const;
 
   MappingDraft draft_;
   CsvPreview preview_;
   QString recording_, file_;
+  QString readFrom_;  ///< the file that the draft came from or was saved to; empty: none
   QStringList channels_;
   QUndoStack undo_;
   bool showing_ = false;
   QTableWidget* table_;
   QLabel *title_, *problem_;
   QPushButton *add_, *remove_, *save_;
+  QCheckBox* forAll_;
 };
 
 }  // namespace btr::ui

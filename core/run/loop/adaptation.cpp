@@ -1,6 +1,5 @@
 // L3: a second learner changes the simulator's parameters until simulated and real fitness agree.
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -143,8 +142,7 @@ class Adaptation {
   std::vector<double> present_;  ///< the parent's values of what may be adapted
   Error known_;
   std::vector<AdaptationCandidate> all_;
-  int number_ = 0, firstNumber_ = 0;
-  std::chrono::steady_clock::time_point begun_;
+  int number_ = 0;
 };
 
 std::string evidenceText(const Evidence& evidence, int stage, double error, double startError, bool kept) {
@@ -187,8 +185,7 @@ bool Adaptation::begin() {
     }
   if (!evaluateCandidates(context_, evidence_, parent_.simulator, tried, known_)) return false;
   for (AdaptationCandidate& c : all_) c.error = known_.at(c.parameters);
-  number_ = firstNumber_ = static_cast<int>(earlier.size());
-  begun_ = std::chrono::steady_clock::now();
+  number_ = static_cast<int>(earlier.size());
   context_.progress.stage = "L3";
   context_.progress.stageTotal = generations_;
   context_.progress.stageDone = number_;
@@ -225,9 +222,11 @@ bool Adaptation::breed() {
   context_.database.addAdaptation(record);
   all_.insert(all_.end(), record.candidates.begin(), record.candidates.end());
 
-  const double each =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count() / (number_ - firstNumber_);
-  context_.progress.secondsLeft = each * (generations_ - number_);
+  context_.planned.adaptersPopulation = static_cast<int>(candidates.size());
+  if (context_.planned.learnersPopulation == 0)
+    context_.planned.learnersPopulation =
+        static_cast<int>(context_.database.individuals(context_.record.id, context_.progress.generation).size());
+  context_.estimateTimeLeft(context_.progress.generation, stage_, number_);
   context_.progress.stageDone = number_;
   context_.progress.best = record.bestError;
   context_.progress.mean = record.meanError;

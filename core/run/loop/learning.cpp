@@ -30,7 +30,6 @@ bool learnUntil(RunContext& context, int lastGeneration) {
   const int firstOfStage = search.generation();
   const int stageStart = simulator.madeAfterGeneration;
   db.setRunState(run, RunState::learning, "");
-  const auto begun = std::chrono::steady_clock::now();
   context.progress.stage = "L1";
   context.progress.message.clear();
   context.progress.generation = firstOfStage;
@@ -54,8 +53,8 @@ bool learnUntil(RunContext& context, int lastGeneration) {
     context.progress.stageDone = generation.number - stageStart;
     context.progress.best = generation.best;
     context.progress.mean = generation.mean;
-    const double each = std::chrono::duration<double>(now - begun).count() / (generation.number - firstOfStage);
-    context.progress.secondsLeft = each * (context.progress.totalGenerations - generation.number);
+    context.planned.learnersPopulation = static_cast<int>(replies->size());
+    context.estimateTimeLeft(generation.number, db.run(run).stage + 1, 0);
     context.publish(false);
   }
   context.publish(true);

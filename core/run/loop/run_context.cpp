@@ -8,6 +8,14 @@ namespace btr {
 namespace {
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// What L3's learner calls its population; 0 where it has none or chooses it itself.
+int adaptersPopulation(const PreparedExperiment& prepared, const PluginHost& host) {
+  const PluginChoice& chosen = prepared.spec.adaptation;
+  const std::vector<Parameter> known = host.learner(chosen.name)->settingsFor(prepared.adapted);
+  const bool hasOne = find(known, "population") != nullptr;
+  return hasOne ? static_cast<int>(valueOf(known, chosen.settings, "population")) : 0;
+}
 }  // namespace
 
 RunContext::RunContext(Database& db, const PluginHost& plugins, Id run, const StopFlag& stop, const RunOptions& options)
@@ -19,6 +27,19 @@ RunContext::RunContext(Database& db, const PluginHost& plugins, Id run, const St
       options_(options),
       begun_(Clock::now()) {
   progress.totalGenerations = stageSetting("total_generations");
+  planned = {0,
+             adaptersPopulation(prepared, host),
+             stageSetting("first_generations"),
+             stageSetting("next_generations"),
+             stageSetting("total_generations"),
+             static_cast<int>(adaptationSetting("generations")),
+             stageSetting("measured_individuals") - static_cast<int>(adaptationSetting("held_out"))};
+}
+
+void RunContext::estimateTimeLeft(int learned, int stage, int adapted) {
+  progress.secondsLeft = progress.trials > 0 ? planned.trialsLeft(learned, stage, adapted) * evaluated_s_ /
+                                                   static_cast<double>(progress.trials)
+                                             : -1;
 }
 
 Evaluator& RunContext::evaluator() {
@@ -38,11 +59,14 @@ bool RunContext::stopped() {
 std::optional<std::vector<TrialReply>> RunContext::evaluate(const std::vector<TrialJob>& jobs) {
   if (stopped()) return std::nullopt;
   const long before = progress.trials;
-  return evaluator().evaluate(jobs, halt_, [&](std::size_t done) {
+  const auto begun = Clock::now();
+  auto replies = evaluator().evaluate(jobs, halt_, [&](std::size_t done) {
     progress.trials = before + static_cast<long>(done);
     stopped();
     publish(false);
   });
+  evaluated_s_ += secondsSince(begun);
+  return replies;
 }
 
 void RunContext::publish(bool now) {

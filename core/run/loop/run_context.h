@@ -7,6 +7,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/run/loop/back_to_reality.h"
+#include "core/run/loop/time_left.h"
 #include "core/run/setup/evaluator.h"
 #include "core/run/setup/prepared_experiment.h"
 #include "core/store/database.h"
@@ -24,6 +25,7 @@ class RunContext {
   RunRecord record;  ///< as it was when this process began; counters are asked from the database
   PreparedExperiment prepared;
   RunProgress progress;
+  PlannedWork planned;  ///< populations as far as they are known; whoever asks a learner puts in what it made
 
   /// Starts the workers when they are first needed.
   Evaluator& evaluator();
@@ -44,6 +46,9 @@ class RunContext {
   std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
   /// L1 generation after which stage k = 1, 2, … measures, at most the total.
   int measuredAfter(int stage) const;
+  /// What is simulated until the run is finished, at the pace of this session's trials, into progress.secondsLeft;
+  /// negative while there were none. See PlannedWork::trialsLeft.
+  void estimateTimeLeft(int learned, int stage, int adapted);
   /// The newest simulator version.
   SimulatorRecord simulator() const;
 
@@ -52,6 +57,7 @@ class RunContext {
   std::atomic<bool> halt_{false};
   const RunOptions& options_;
   std::unique_ptr<Evaluator> evaluator_;
+  double evaluated_s_ = 0;  ///< spent in evaluate()
   std::chrono::steady_clock::time_point begun_, published_, looked_;
 };
 

@@ -303,6 +303,13 @@ class TestRunPanel : public QObject {
     panel.addGenerations({next});
     QCOMPARE(text("best"), QString("1.125 m"));
     QCOMPARE(text("trials"), QString("97"));
+    // In the simulator that L3 made, fitness is another thing.
+    next.number = 5;
+    next.simulator = 2;
+    next.best = 0.625;
+    panel.addGenerations({next});
+    QCOMPARE(text("best"), QString("0.625 m"));
+    QVERIFY(panel.findChild<QLabel*>("best")->toolTip().contains("generation 5"));
   }
 };
 

@@ -8,6 +8,7 @@
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
+#include <QTimer>
 #include <QTreeWidget>
 #include <algorithm>
 
@@ -76,10 +77,14 @@ ComparePage::ComparePage(QWidget* parent)
   tree_->setToolTip(tr("Tick the runs to compare; a tick beside an experiment takes all of its runs"));
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  connect(tree_, &QTreeWidget::itemChanged, this, [this] {
+  // A tick beside an experiment changes all of its runs, one after another: they are drawn together.
+  ticked_ = new QTimer(this);
+  ticked_->setSingleShot(true);
+  connect(ticked_, &QTimer::timeout, this, [this] {
     draw();
     ask();
   });
+  connect(tree_, &QTreeWidget::itemChanged, ticked_, qOverload<>(&QTimer::start));
 
   differences_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   differences_->setAlternatingRowColors(true);

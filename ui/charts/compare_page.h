@@ -12,6 +12,7 @@ class QLabel;
 class QSplitter;
 class QTabWidget;
 class QTableWidget;
+class QTimer;
 class QTreeWidget;
 class QTreeWidgetItem;
 
@@ -81,6 +82,7 @@ class ComparePage : public QWidget {
 
   QSplitter* parts_;  ///< the list of runs, and all that is shown of them
   QTreeWidget* tree_;
+  QTimer* ticked_;  ///< runs out when all ticks of one click are set
   PlotWidget *plot_, *stages_, *real_;
   QTabWidget* charts_;
   QTableWidget *differences_, *reached_;

@@ -80,12 +80,14 @@ RunPanel::RunPanel(QWidget* parent)
 
   auto* figures = new QHBoxLayout;
   figures->setSpacing(28);
-  bestShown_ = addFigure(*figures, "best", tr("Best"), tr("Best fitness of all generations"));
+  bestShown_ = addFigure(*figures, "best", tr("Best"), tr("Best fitness of all generations in the newest simulator"));
   mean_ = addFigure(*figures, "mean", tr("Mean"), tr("Mean fitness of the last generation"));
   speed_ = addFigure(*figures, "speed", tr("Speed"), tr("Simulated trials per second, all workers together"));
   trialsShown_ =
       addFigure(*figures, "trials", tr("Trials"), tr("Trials of L1 in all stored generations, over all starts"));
-  left_ = addFigure(*figures, "left", tr("Time left"), tr("Estimate for the simulated part"));
+  left_ =
+      addFigure(*figures, "left", tr("Time left"),
+                tr("Estimate for all learning and adapting of the simulator that is to come; measuring not counted"));
   figures->addStretch();
 
   auto* column = new QVBoxLayout(this);
@@ -146,7 +148,9 @@ void RunPanel::setGenerations(const std::vector<GenerationRecord>& all) {
 void RunPanel::addGenerations(const std::vector<GenerationRecord>& added) {
   for (const GenerationRecord& generation : added) {
     trials_ += generation.trials;
-    if (best_.number == 0 || generation.best > best_.best) best_ = generation;
+    // What another simulator gave is not to be compared.
+    if (generation.simulator != best_.simulator || best_.number == 0 || generation.best > best_.best)
+      best_ = generation;
     generation_ = generation;
   }
   generation_.individuals.clear();
@@ -249,9 +253,10 @@ void RunPanel::refresh() {
                             ? tr("%1 trials/s").arg(shortNumber(progress_.trialsPerSecond))
                             : QStringLiteral("–"));
   trialsShown_.value->setText(trials_ > 0 ? QLocale::c().toString(qlonglong(trials_)) : QStringLiteral("–"));
-  bestShown_.value->setToolTip(adapting || !known || blind_
-                                   ? tr("Best fitness of all generations")
-                                   : tr("Best fitness of all generations: of generation %1").arg(best_.number));
+  bestShown_.value->setToolTip(
+      adapting || !known || blind_
+          ? tr("Best fitness of all generations in the newest simulator")
+          : tr("Best fitness of all generations in the newest simulator: of generation %1").arg(best_.number));
   left_.value->setText(active_ ? duration(progress_.secondsLeft) : QStringLiteral("–"));
 
   QString message = QString::fromStdString(run_.message);

@@ -51,7 +51,7 @@ class RunPanel : public QWidget {
   RunProgress progress_;
   MeasuringCount measuring_;
   GenerationRecord generation_;  ///< the last one
-  GenerationRecord best_;        ///< with the best fitness of all
+  GenerationRecord best_;        ///< with the best fitness of all in the newest simulator
   long trials_ = 0;              ///< of all stored generations
   bool active_ = false, empty_ = true, blind_ = false;
   QString shownIcon_;  ///< and its colour

@@ -832,7 +832,11 @@ class TestGapPage : public QObject {
 
   void aVersionOfTheRunCanBeWhatIsAnalysed() {
     QTemporaryDir folder;
-    const QString program = file(folder, "btr", "#!/bin/sh\necho \"$@\" >&2\nexit 1\n");
+    // Keeps what it was given, and fails.
+    const QString given = folder.filePath("given.json");
+    const QString script = "#!/bin/sh\nwhile [ \"$1\" != --simulator ]; do shift; done\ncp \"$2\" '" + given +
+                           "'\necho \"$1 $2\" >&2\nexit 1\n";
+    const QString program = file(folder, "btr", script.toUtf8().constData());
     QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
     GapPage page(program);
     page.setup().setScene(SOURCE_DIR "/resources/scenes/xl330.json");
@@ -847,7 +851,8 @@ class TestGapPage : public QObject {
     QVERIFY(failed.count() == 1 || failed.wait(10000));
     const QString kept = folder.filePath("report/simulator_before.json");
     QVERIFY(failed.first().first().toString().contains("--simulator " + kept));
-    QVERIFY(loadSimulator(kept.toStdString()) == all[1].simulator);
+    QVERIFY(loadSimulator(given.toStdString()) == all[1].simulator);
+    QVERIFY(!QFileInfo::exists(folder.filePath("report")));  // nothing is left of what failed
   }
 
   void progressIsReadFromTheProcess() {
@@ -873,9 +878,12 @@ class TestGapPage : public QObject {
     QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
     GapPage page(program);
     QSignalSpy opened(&page, &GapPage::reportOpened);
+    auto* tabs = page.view().findChild<QTabWidget*>();
+    tabs->setCurrentIndex(3);
     page.process().start({"scene.json", {"a.csv"}, {}, {}, {}, folder.filePath("report"), 0, 1});
     QVERIFY(opened.wait(10000));
     QVERIFY(page.view().report() != nullptr);
+    QCOMPARE(tabs->currentIndex(), 0);  // what was found
 
     file(folder, "btr", "#!/bin/sh\necho 'calibrating 0.1' >&2\nexec tail -f /dev/null\n");
     QSignalSpy progressed(&page.process(), &AnalysisProcess::progressed);

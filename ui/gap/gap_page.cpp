@@ -33,6 +33,7 @@
 
 namespace btr::ui {
 namespace {
+constexpr const char* simulatorBefore = "simulator_before.json";
 
 QString nothingToAdopt(GapReport::Verdict verdict) {
   return verdict == GapReport::Verdict::noMismatch
@@ -87,10 +88,12 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   });
   connect(&process_, &AnalysisProcess::cancelled, this, [this] {
     setup_->setRunning(false);
+    forgetFolder();
     emit informed(tr("The analysis was cancelled; nothing was written."));
   });
   connect(&process_, &AnalysisProcess::failed, this, [this](const QString& message) {
     setup_->setRunning(process_.isRunning());
+    if (!process_.isRunning()) forgetFolder();
     emit failed(message);
   });
   connect(clues_, &CluesView::failed, this, &GapPage::failed);
@@ -156,10 +159,12 @@ void GapPage::start() {
   if (const QString asked = setup_->job().out; setup_->keepEarlierReport())
     emit informed(tr("%1 keeps its report; this one goes to %2.").arg(asked, setup_->job().out));
   AnalysisJob job = setup_->job();
+  made_.clear();
   try {
     if (const QString text = setup_->simulatorText(); !text.isEmpty()) {
       // Kept beside the report: it says what "as given" was.
-      job.simulator = QDir(job.out).filePath("simulator_before.json");
+      job.simulator = QDir(job.out).filePath(simulatorBefore);
+      if (!QDir(job.out).exists()) made_ = job.out;
       QDir().mkpath(job.out);
       writeFile(job.simulator.toStdString(), text.toStdString());
     }
@@ -167,6 +172,13 @@ void GapPage::start() {
     return emit failed(QString::fromUtf8(error.what()));
   }
   process_.start(job);
+}
+
+void GapPage::forgetFolder() {
+  if (made_.isEmpty()) return;
+  QFile::remove(QDir(made_).filePath(simulatorBefore));
+  QDir().rmdir(made_);  // only an empty one
+  made_.clear();
 }
 
 bool GapPage::openReport(const QString& folder) {

@@ -65,6 +65,7 @@ class GapPage : public QWidget {
 
  private:
   void makeActions();
+  void forgetFolder();  ///< made for an analysis of which nothing came
   void start();
   bool confirmAdoption();
   void refresh();
@@ -72,6 +73,7 @@ class GapPage : public QWidget {
 
   QString refused_;  ///< why the analysis could not be started
   QString folder_;
+  QString made_;  ///< the folder that an analysis was given and that was not there before; empty: none
   std::vector<AdoptionTarget> targets_;
   bool chosen_ = false;  ///< by the user, for this report
   AnalysisProcess process_;

@@ -213,6 +213,7 @@ void ReportView::follow(PlotWidget& other, const PlotWidget& moved) {
 void ReportView::setReport(std::shared_ptr<const GapReport> report) {
   report_ = std::move(report);
   cursor_.reset();
+  tabs_->setCurrentIndex(0);  // what was found
   const GapReport empty;
   const GapReport& shown = report_ ? *report_ : empty;
   map_->setReport(report_);

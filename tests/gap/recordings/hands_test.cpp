@@ -42,6 +42,41 @@ Scene swinger(const std::string& drive = "none") {
                      drive + R"("}}}])");
 }
 
+/// Two joints one after the other, without drives.
+Scene chain() {
+  const TemporaryFolder folder;
+  folder.write("chain.urdf", R"(<robot name="chain">
+    <link name="wall"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="top" type="continuous"><parent link="wall"/><child link="upper"/><axis xyz="0 1 0"/></joint>
+    <link name="upper"><inertial><origin xyz="0 0 -0.1"/><mass value="0.1"/>
+      <inertia ixx="3e-4" iyy="3e-4" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="mid" type="continuous"><parent link="upper"/><child link="lower"/><origin xyz="0 0 -0.2"/><axis xyz="0 1 0"/></joint>
+    <link name="lower"><inertial><origin xyz="0 0 -0.08"/><mass value="0.1"/>
+      <inertia ixx="2e-4" iyy="2e-4" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)");
+  const SceneSpec spec = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.001, "control_period_s": 0.01,
+    "robots": [{"name": "dp", "model": "chain.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none",
+                "servos": {"top": {"drive": "none"}, "mid": {"drive": "none"}}}]})",
+                                       "scene", folder.file("."));
+  return makeScene(spec, loadModels(spec), {}, {});
+}
+
+/// Its joints by time, every 10 ms with noise of 1 mrad.
+Recording chainThat(const std::function<double(double)>& top, const std::function<double(double)>& mid,
+                    double length_s) {
+  Random random(5);
+  Recording trial;
+  trial.source = "chain.csv";
+  trial.channels = {"time_s", "dp.top.position_rad", "dp.mid.position_rad"};
+  trial.columns.resize(3);
+  for (int i = 0; i < std::lround(length_s / 0.01); ++i) {
+    const double t = 0.01 * i;
+    trial.columns[0].push_back(t);
+    trial.columns[1].push_back(top(t) + 0.001 * random.normal());
+    trial.columns[2].push_back(mid(t) + 0.001 * random.normal());
+  }
+  return trial;
+}
+
 /// Acceleration of a joint at angle [rad] and rate [rad/s].
 using Law = std::function<double(double, double)>;
 /// Where a hand has it at a time, NaN: nowhere.
@@ -96,6 +131,35 @@ TEST(Hands, ThatHoldOrLiftBeforeTheyLetGoAreLeftOut) {
     EXPECT_EQ(trial.columns[0].back(), end_s - 0.01);
     EXPECT_THAT(trial.notes, ElementsAre(HasSubstr("s are left out: until then rod.hinge.position_rad does not move")));
   }
+}
+
+TEST(Hands, ThatHoldAChainAreLeftOut) {
+  constexpr double release_s = 0.31;
+  const auto top = [](double t) { return 1.4 * std::cos(6 * std::max(0.0, t - release_s)); };
+  const auto mid = [](double t) { return 0.3 + 0.5 * (1 - std::cos(9 * std::max(0.0, t - release_s))); };
+  const Recording trial = withoutHands(chainThat(top, mid, 3), chain());
+  EXPECT_GE(trial.columns[0].front(), release_s);
+  EXPECT_LE(trial.columns[0].front(), release_s + 0.1);
+  EXPECT_THAT(trial.notes, ElementsAre(HasSubstr("until then all joints rest, then they move though nothing drives")));
+  // One that is let go before the recorder begins, one that moves from the first sample on, and one that leaves an
+  // unstable equilibrium by itself.
+  const auto later = [&](double t) { return top(t + release_s); };
+  EXPECT_EQ(withoutHands(chainThat(later, mid, 3), chain()).rows(), 300u);
+  EXPECT_EQ(withoutHands(chainThat([](double t) { return 0.5 * t; }, mid, 3), chain()).rows(), 300u);
+  const auto upright = [](double t) { return 3.1416 - 0.002 * std::cosh(6 * std::min(t, 1.2)); };
+  EXPECT_EQ(withoutHands(chainThat(
+                             upright, [](double) { return 0.0; }, 1.2),
+                         chain())
+                .rows(),
+            120u);
+}
+
+TEST(Hands, ThatHoldWhatSwingsOnlyOnceAreLeftOut) {
+  Recording trial = swung(gravityAlone, [](double t) { return t < 0.37 ? 1.2 : std::nan(""); });
+  for (auto& column : trial.columns) column.resize(90);  // less than three passes
+  const Recording left = withoutHands(trial);
+  EXPECT_NEAR(left.columns[0].front(), 0.37, 0.1);
+  EXPECT_GE(left.columns[0].front(), 0.37);
 }
 
 TEST(Hands, ThatCatchAreLeftOut) {

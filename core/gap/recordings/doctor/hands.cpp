@@ -187,17 +187,18 @@ std::optional<FreeJoint> freeJointOf(const Scene& scene, const Binding& binding)
   return std::nullopt;
 }
 
-void leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
+/// True if it left out how the joint was held at first.
+bool leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
   const std::string why = ": until then " + trial.channels[joint.column] +
                           " does not move as it does afterwards, though nothing drives it; a hand, it seems";
   const std::vector<Sample> samples = samplesOf(trial, joint.column);
-  if (samples.empty()) return;
+  if (samples.empty()) return false;
   const double begin = trial.columns[0].front(), end = trial.columns[0].back();
   const auto held = heldUntil(samples, joint.slides);
   std::vector<Sample> backwards(samples.rbegin(), samples.rend());
   for (Sample& sample : backwards) sample.time_s = -sample.time_s;
   const auto caught = heldUntil(backwards, joint.slides);
-  if (held && caught && -*caught <= *held) return;
+  if (held && caught && -*caught <= *held) return false;
   if (held)
     trial.notes.push_back("the first " + digits(*held - begin) + " s are left out" + why +
                           " (\"from_s\": 0 in its mapping keeps them)");
@@ -207,6 +208,68 @@ void leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
                           " does not move as it did before, though nothing drives it; a hand, it seems (\"until_s\" in "
                           "its mapping keeps them)");
   if (held || caught) trial = rowsBetween(trial, held.value_or(begin), caught ? -*caught : end);
+  return held.has_value();
+}
+
+/// Robots that stand fast and whose joints nothing drives; nothing else is in the scene.
+bool isPassive(const Scene& scene, const Binding& binding) {
+  if (scene.robots.empty() || !scene.balls.empty() || !binding.inputs.empty()) return false;
+  return std::ranges::all_of(scene.robots, [](const SceneRobot& robot) {
+    return !robot.freeBase &&
+           std::ranges::all_of(robot.drives, [](const Drive& drive) { return drive.kind == Drive::Kind::none; });
+  });
+}
+
+/// How something that rests at first sets out: when it has gone a little way, a quarter of it, and four times as far.
+struct SetOut {
+  double quarter_s = 0, little_s = 0, fourTimes_s = 0;
+  /// When it was let go: what falls from rest is four times as far after twice the time.
+  double letGo_s() const { return 2 * little_s - fourTimes_s; }
+  double fall_s() const { return little_s - letGo_s(); }
+  /// What leaves an unstable equilibrium goes four times as far in the same time again and again.
+  bool falls() const {
+    constexpr double agree = 0.5;
+    return std::abs(2 * quarter_s - little_s - letGo_s()) < agree * fall_s();
+  }
+};
+std::optional<SetOut> setOutOf(const std::vector<Sample>& samples, double noise) {
+  constexpr double little = 0.04;  // of the whole motion; hands are not quite still
+  constexpr std::size_t first = 5;
+  if (samples.size() < 4 * first) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(samples, {}, &Sample::value);
+  const double way = std::max(4 * noise, little * (high.value - low.value));
+  std::vector<double> rest;
+  for (std::size_t i = 0; i < first; ++i) rest.push_back(samples[i].value);
+  std::ranges::nth_element(rest, rest.begin() + first / 2);
+  const auto beyond = [&](double distance) {
+    return std::ranges::find_if(samples,
+                                [&](const Sample& s) { return std::abs(s.value - rest[first / 2]) > distance; });
+  };
+  const auto quarter = beyond(way / 4), near = beyond(way), far = beyond(4 * way);
+  if (far == samples.end()) return std::nullopt;
+  return SetOut{quarter->time_s, near->time_s, far->time_s};
+}
+
+/// Joints that rest although nothing holds them, and then move although nothing drives them.
+void leaveOutHeldRobot(Recording& trial, const Binding& binding) {
+  constexpr double floors = 6;  // noise floors
+  constexpr double least_s = 0.04,
+                   samples = 4;  // how long it rests, and as long as it then takes to have gone a little
+  std::optional<SetOut> first;
+  for (const Measured& measured : binding.measured) {
+    if (measured.what != Measured::What::position) continue;
+    const auto out = setOutOf(samplesOf(trial, measured.column), floors * channelFloor(trial, measured.column).level);
+    if (out && (!first || out->little_s < first->little_s)) first = out;
+  }
+  if (!first || !first->falls()) return;
+  const double begin = trial.columns[0].front(), end = trial.columns[0].back();
+  const double row_s = (end - begin) / static_cast<double>(trial.rows() - 1);
+  if (first->letGo_s() - begin < std::max({least_s, samples * row_s, first->fall_s()})) return;
+  trial.notes.push_back(
+      "the first " + digits(first->little_s - begin) +
+      " s are left out: until then all joints rest, then they move though nothing drives them; a hand, "
+      "it seems (\"from_s\": 0 in its mapping keeps them)");
+  trial = rowsBetween(trial, first->little_s, end);
 }
 
 /// A ball that rests in the air and then falls.
@@ -260,10 +323,9 @@ void leaveOutHeldBall(Recording& trial, const Scene& scene, const Binding& bindi
 
 void leaveOutHands(Recording& trial, const Scene& scene, const Binding& binding) {
   if (trial.bounded || trial.rows() < 2) return;
-  if (const auto joint = freeJointOf(scene, binding))
-    leaveOutSwinger(trial, *joint);
-  else
-    leaveOutHeldBall(trial, scene, binding);
+  if (!isPassive(scene, binding)) return leaveOutHeldBall(trial, scene, binding);
+  const auto joint = freeJointOf(scene, binding);
+  if (!joint || !leaveOutSwinger(trial, *joint)) leaveOutHeldRobot(trial, binding);
 }
 
 }  // namespace btr

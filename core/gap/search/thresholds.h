@@ -146,6 +146,11 @@ struct SearchThresholds {
     /// times the usual size, tried where that changes nothing [case: creep on carpet]
     std::array<double, 2> insensitiveSizes{50, 500};
     std::size_t insensitiveVariants = 2;  ///< in these sizes [time]
+    /// Of the size that was tried, what is wanted; and the squared change over all that is to be explained: a law is no
+    /// longer near proportional to its size then [case: a spring of 1.7 mN·m/rad on an arm of a few grams]
+    double farTooLarge = 0.05, muchMore = 25;
+    std::size_t smallerVariants = 2;  ///< of such a candidate in smaller sizes [time]
+    int smallerRounds = 3;            ///< for each: smaller and smaller [time]
     double worthLooking = 0.005;          ///< promised gain from which a replay looks at what was promised [hand]
     std::array<double, 4> lookedAt{1.0, 0.1, 0.3, 3.0};  ///< times the promised size; the first as promised [hand]
     std::size_t many = 60;           ///< candidates: then a third of the segments is looked at first [time]

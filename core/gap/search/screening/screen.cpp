@@ -136,8 +136,23 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     if (attempt.wanted > limits.largestStep)
       for (const double size : {std::sqrt(limits.largestStep * attempt.wanted), attempt.wanted})
         tryOut(scaledVariant(candidate, attempt.effect, size));
-  if (atAnySize <= leastChange(linear, limits)) tries.clear();
   const double total = linear.profiled.squaredNorm();
+  // Or thousands of times as small: what then moves all far beyond what is to be explained does not say how a little
+  // of it would. The variants that promise most are tried in sizes that change about as much as there is.
+  std::vector<const Try*> tooLarge;
+  for (const Try& attempt : usual)
+    if (attempt.wanted < limits.farTooLarge && attempt.change.squaredNorm() > limits.muchMore * total)
+      tooLarge.push_back(&attempt);
+  std::ranges::stable_sort(tooLarge, std::ranges::greater{}, &Try::gain);
+  tooLarge.resize(std::min(tooLarge.size(), limits.smallerVariants));
+  for (const Try* attempt : tooLarge) {
+    double size = 1, all = attempt->change.squaredNorm();
+    for (int round = 0; round < limits.smallerRounds && all > limits.muchMore * total; ++round) {
+      size *= std::sqrt(total / all);
+      all = tryOut(scaledVariant(candidate, attempt->effect, size));
+    }
+  }
+  if (atAnySize <= leastChange(linear, limits)) tries.clear();
   struct Found {
     double gain;
     Values effect;

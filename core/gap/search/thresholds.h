@@ -151,7 +151,7 @@ struct SearchThresholds {
     double farTooLarge = 0.05, muchMore = 25;
     std::size_t smallerVariants = 2;  ///< of such a candidate in smaller sizes [time]
     int smallerRounds = 3;            ///< for each: smaller and smaller [time]
-    double worthLooking = 0.005;          ///< promised gain from which a replay looks at what was promised [hand]
+    double worthLooking = 0.005;      ///< promised gain from which a replay looks at what was promised [hand]
     std::array<double, 4> lookedAt{1.0, 0.1, 0.3, 3.0};  ///< times the promised size; the first as promised [hand]
     std::size_t many = 60;           ///< candidates: then a third of the segments is looked at first [time]
     std::size_t promising = 40;      ///< that are screened in full then [time]

@@ -97,8 +97,7 @@ std::string effectCard(const GapReport& report, const ReportLead::Finding& findi
           headerRow({"parameter", "unit", "remark", "value", "95 % interval", "among rivals"}, 3);
   for (const GapReport::Number& n : e.parameters) html += numberRow(n, numberCell(n.value));
   html += "</table></div>\n<p>";
-  if (const std::string without = withoutInWords(e); !without.empty())
-    html += escaped(without) + " (p = " + escaped(brief(e.pValue)) + ")";
+  html += escaped(withoutInWords(e));
   for (std::size_t i = 0; i < e.rivals.size(); ++i)
     html += (i ? ", " : " These recordings cannot tell it from ") + escaped(inWords(e.rivals[i])) + " (error × " +
             escaped(brief(e.rivals[i].heldoutErrorRatio)) + ")";

@@ -252,9 +252,9 @@ std::optional<SetOut> setOutOf(const std::vector<Sample>& samples, double noise)
 
 /// Joints that rest although nothing holds them, and then move although nothing drives them.
 void leaveOutHeldRobot(Recording& trial, const Binding& binding) {
-  constexpr double floors = 6;  // noise floors
-  constexpr double least_s = 0.04,
-                   samples = 4;  // how long it rests, and as long as it then takes to have gone a little
+  constexpr double floors = 6;      // noise floors
+  constexpr double least_s = 0.04;  // how long it rests at least, as long as it then takes to go a little way
+  constexpr double leastRows = 4;   // the same in rows
   std::optional<SetOut> first;
   for (const Measured& measured : binding.measured) {
     if (measured.what != Measured::What::position) continue;
@@ -264,7 +264,7 @@ void leaveOutHeldRobot(Recording& trial, const Binding& binding) {
   if (!first || !first->falls()) return;
   const double begin = trial.columns[0].front(), end = trial.columns[0].back();
   const double row_s = (end - begin) / static_cast<double>(trial.rows() - 1);
-  if (first->letGo_s() - begin < std::max({least_s, samples * row_s, first->fall_s()})) return;
+  if (first->letGo_s() - begin < std::max({least_s, leastRows * row_s, first->fall_s()})) return;
   trial.notes.push_back(
       "the first " + digits(first->little_s - begin) +
       " s are left out: until then all joints rest, then they move though nothing drives them; a hand, "

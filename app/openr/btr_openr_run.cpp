@@ -37,10 +37,17 @@ void addOpenrRunCommand(CLI::App& openr, Shell& shell) {
       throw InputError(
           "--stick", std::to_string(pairs->sticks.size()) + " for " + std::to_string(pairs->robots.size()) + " --robot",
           "one for each");
-    for (std::size_t i = 0; i < pairs->robots.size(); ++i)
-      a->sticks.push_back({pairs->robots[i],
-                           {std::filesystem::absolute(pairs->sticks[i]).lexically_normal().string(), "",
-                            pairs->motorPower, pairs->camera}});
+    for (std::size_t i = 0; i < pairs->robots.size(); ++i) {
+      const std::filesystem::path stick = std::filesystem::absolute(pairs->sticks[i]).lexically_normal();
+      for (const OpenrChoice& other : a->sticks) {
+        if (other.robot == pairs->robots[i])
+          throw InputError("--robot", other.robot + " twice", "each robot once, with one stick");
+        if (std::filesystem::weakly_canonical(other.stick.folder) == std::filesystem::weakly_canonical(stick))
+          throw InputError("--stick", pairs->sticks[i] + " for " + other.robot + " and for " + pairs->robots[i],
+                           "a folder of its own for each robot, as both write on it: copy it");
+      }
+      a->sticks.push_back({pairs->robots[i], {stick.string(), "", pairs->motorPower, pairs->camera}});
+    }
     runLive(*a, seconds->count() > 0, shell);
   });
 }

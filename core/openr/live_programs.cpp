@@ -230,8 +230,10 @@ void LivePrograms::end() {
   for (auto& [name, robot] : robots_) {
     SensorFrame frame = frameOf(name, robot, row);
     frame.shutdown = true;
-    for (const ConsoleLine& line : robot.program->exchange(frame).lines)
-      lines_.push_back({name, line.object, line.text});
+    const OrderFrame orders = robot.program->exchange(frame);
+    for (const ConsoleLine& line : orders.lines) lines_.push_back({name, line.object, line.text});
+    // One that fails while it stops has failed.
+    if (orders.ended && orders.ended->why != Ended::Why::shutdown) ended_[name] = orders.ended;
   }
   robots_.clear();
 }

@@ -116,6 +116,10 @@ expect 1 "no stick" "$btr" openr run --game "$folder/two.json" --robot red1 --st
 says err "OBJECT.CFG"
 expect 1 "one stick for two" "$btr" openr run --game "$folder/two.json" --robot red1 --robot blue1 --stick "$stick"
 says err "one for each"
+expect 1 "two sticks for one" "$btr" openr run --game "$folder/two.json" --robot red1 --stick "$stick" --robot red1 --stick "$folder/MS2"
+says err "red1 twice"
+expect 1 "the same stick twice" "$btr" openr run --game "$folder/two.json" --robot red1 --stick "$stick" --robot blue1 --stick "$stick/."
+says err "a folder of its own for each robot"
 expect 1 "not Sony's" "$btr" openr run --game "$root/resources/robots/emps.urdf" --robot robot --stick "$stick"
 says err "ERS-7"
 

@@ -275,6 +275,48 @@ TEST(StickBuilder, SaysWhichFileOfAMakefileIsMissing) {
   EXPECT_THAT(buildHint("Thing.h:2:1: error: wrong\n"), HasSubstr("mend what the compiler says above"));
 }
 
+TEST(StickBuilder, TakesModulesThatAMakefilePutsOntoAStickBesideIt) {
+  const std::string folder = emptyFolder("beside");
+  for (const char* part : {"/Thing", "/obj", "/MS/OPEN-R/MW/CONF"}) std::filesystem::create_directories(folder + part);
+  writeText(
+      folder + "/Thing/Thing.h",
+      "#include <OPENR/OObject.h>\n#include \"def.h\"\nclass Thing : public OObject { public: OSubject* subject[1]; "
+      "OObserver* observer[1]; };\n");
+  writeText(folder + "/Thing/stub.cfg",
+            "ObjectName : Thing\nNumOfOSubject : 1\nNumOfOObserver : 1\nService : \"Thing.A.B.S\", null, null\n"
+            "Service : \"Thing.A.B.O\", null, null\n");
+  writeText(folder + "/Thing/Makefile",
+            "install:\n\t$(OPENRSDK_ROOT)/OPEN_R/bin/stubgen2 stub.cfg\n"
+            "\t$(OPENRSDK_ROOT)/bin/mipsel-linux-g++ -I. -I$(OPENRSDK_ROOT)/OPEN_R/include -c ThingStub.cc -o "
+            "../obj/stub.o\n\t$(OPENRSDK_ROOT)/OPEN_R/bin/mkbin -o ../obj/t.bin ../obj/stub.o\n"
+            "\tgzip -c ../obj/t.bin > ../MS/OPEN-R/MW/OBJS/THINGX.BIN\n");
+  writeText(folder + "/obj/keep", "");
+  // Without the folder that modules are copied to: version control keeps no empty one.
+  writeText(folder + "/MS/OPEN-R/MW/CONF/OBJECT.CFG", "/MS/OPEN-R/MW/OBJS/THINGX.BIN\n");
+  const std::string out = emptyFolder("beside_out");
+  const StickBuild build = buildOnto(out, {folder});
+  ASSERT_EQ(build.objects.size(), 1u);
+  EXPECT_EQ(build.objects[0].said, "");
+  EXPECT_THAT(build.objects[0].modules, ElementsAre("THINGX.BIN"));
+}
+
+TEST(StickBuilder, SaysWhatTheCompilerRefusedOfALibrary) {
+  const std::string folder = emptyFolder("library");
+  for (const char* part : {"/shared", "/Thing"}) std::filesystem::create_directories(folder + part);
+  writeText(folder + "/shared/tool.cc", "int tool() { return nowhere; }\n");
+  writeText(folder + "/shared/Makefile",
+            "libtool.a: tool.cc\n\t$(OPENRSDK_ROOT)/bin/mipsel-linux-g++ -c tool.cc -o tool.o\n"
+            "\t$(OPENRSDK_ROOT)/bin/mipsel-linux-ar rc libtool.a tool.o\n");
+  writeText(folder + "/Thing/thing.ocf", "object Thing 8192 65536 128 cache tlb user\n");
+  writeText(folder + "/Thing/Makefile",
+            "install: ../shared/libtool.a\n\t$(OPENRSDK_ROOT)/OPEN_R/bin/mkbin -o thing.bin ../shared/libtool.a\n");
+  const StickBuild build = buildOnto(emptyFolder("library_out"), {folder});
+  ASSERT_EQ(build.objects.size(), 1u);
+  EXPECT_FALSE(build.complete());
+  EXPECT_THAT(build.objects[0].said, HasSubstr("tool.cc:1:"));
+  EXPECT_THAT(build.objects[0].said, HasSubstr("nowhere"));
+}
+
 TEST(StickBuilder, RefusesFoldersWithoutObjects) {
   EXPECT_THROW(buildOnto(emptyFolder("nothing_out"), {emptyFolder("nothing")}), InputError);
 }

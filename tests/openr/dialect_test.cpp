@@ -152,8 +152,26 @@ TEST(Dialect, ALongHas32BitsInFilesStructuresAndArithmetic) {
   EXPECT_THAT(all, HasSubstr("random 1337 1084\n"));  // products end after 32 bits
   EXPECT_THAT(all, HasSubstr("read abcd 7 -2 of 12\n"));
   EXPECT_THAT(all, HasSubstr("in C 4 -1\n"));
-  // Overloads for int and long are two with a long of 64 bits alone: so it stays in that file.
+  EXPECT_THAT(all, HasSubstr("a time 1 1\n"));  // a long takes the time, as the robot's time_t was one
+}
+
+// Overloads for int and long are two with a long of 64 bits alone: so it has them in every source of that stick, and
+// all of them mean the same by a structure.
+TEST(Dialect, ALongIsAsLongInAllSourcesOfAStick) {
+  const std::string stick = emptyFolder("widths_stick");
+  const StickBuild build = buildOnto(stick, {programFolder("widths")});
+  ASSERT_TRUE(build.complete());
+  EXPECT_THAT(build.objects[0].said, HasSubstr("Overloads.cc: "));
+  EXPECT_THAT(build.objects[0].said, HasSubstr("a long has 64 bits here in all sources of this stick"));
+  const std::string all = runStick(stick, 3).all();
   EXPECT_THAT(all, HasSubstr("overloads int long"));
+  EXPECT_THAT(all, HasSubstr("percept 5 100 -200 0.5\n"));
+}
+
+// What a program keeps out of a conversion or a root is not computed beside the rest, however it is optimised.
+TEST(Dialect, WhatStandsBehindAQuestionIsNotComputedBeforeItIsAnswered) {
+  const std::string all = runStick(stickOf("asked"), 3).all();
+  EXPECT_THAT(all, HasSubstr("255 21 1000000 2.65 3.5\n"));
 }
 
 TEST(Dialect, NamesAreFoundWithoutTheirNamespaceAsBeforeTheStandard) {

@@ -290,6 +290,26 @@ TEST_F(OpenrLive, AProgramThatDiesLeavesJointsHeldAndTheSessionWhole) {
   run(session, programs, 20);
 }
 
+TEST_F(OpenrLive, AProgramThatDiesWhileItStopsHasFailed) {
+  const auto dies = [](const SensorFrame& frame) {
+    OrderFrame orders;
+    if (frame.shutdown) orders.ended = openr::Ended{openr::Ended::Why::crash, "Bad", "DoStop", "it wrote at address 0"};
+    return orders;
+  };
+  const auto stops = [](const SensorFrame& frame) {
+    OrderFrame orders;
+    if (frame.shutdown) orders.ended = openr::Ended{openr::Ended::Why::shutdown, "", "", "all objects have stopped"};
+    return orders;
+  };
+  Session session(game(), host());
+  LivePrograms programs(session, playing({{"red", dies}, {"blue", stops}}));
+  run(session, programs, 20);
+  programs.end();
+  ASSERT_TRUE(programs.ended().at("red1"));
+  EXPECT_EQ(sentenceOf(*programs.ended().at("red1")), "Bad crashed in DoStop: it wrote at address 0");
+  EXPECT_FALSE(programs.ended().at("blue1"));
+}
+
 TEST_F(OpenrLive, ARobotThatGoesTakesItsProgramAlongAndOneThatComesBringsOne) {
   long starts = 0;
   const auto turns = [&](int target) {

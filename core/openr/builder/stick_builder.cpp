@@ -1,7 +1,10 @@
 #include "core/openr/builder/stick_builder.h"
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -53,6 +56,33 @@ std::string moduleName(const std::string& object, const std::vector<std::string>
   return count == 1 ? name : upper(object).substr(0, 8) + ".BIN";
 }
 
+constexpr const char* longsRefused = ": a long has 64 bits here, 32 on the robot: with 32 it is refused (";
+
+/// What openr-compile said of sources that it compiled with a `long` of 64 bits, a line each; "" where there are none.
+std::string refusedLongs(const StickBuild& built) {
+  std::string lines;
+  for (const StickBuild::Object& object : built.objects)
+    for (std::size_t at = 0; (at = object.said.find(longsRefused, at)) != std::string::npos; ++at) {
+      const std::size_t before = object.said.rfind('\n', at), end = object.said.find('\n', at);
+      const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+      lines += object.said.substr(begin, at - begin) + ": " +
+               object.said.substr(at + std::strlen(longsRefused), end - at - std::strlen(longsRefused) - 1) + "\n";
+    }
+  return lines;
+}
+
+/// While it lives, openr-compile takes a `long` for 64 bits in all sources.
+class WideLongs {
+ public:
+  WideLongs() { ::setenv(name, "1", 1); }
+  ~WideLongs() { ::unsetenv(name); }
+  WideLongs(const WideLongs&) = delete;
+  WideLongs& operator=(const WideLongs&) = delete;
+
+ private:
+  static constexpr const char* name = "BTR_OPENR_WIDE";
+};
+
 class StickBuilder {
  public:
   explicit StickBuilder(const StickBuildOptions& options) : options_(options), out_(options.out) {
@@ -101,18 +131,23 @@ class StickBuilder {
     SourceFolders found = findSources(copy);
     if (found.sticks.empty() && fs::exists(fs::path(folder) / ".." / "MS" / "OPEN-R"))
       found.sticks.push_back(fs::canonical(fs::path(folder) / ".." / "MS"));
-    for (const fs::path& each : found.sticks) copySettings(each, stick);
+    for (const fs::path& each : found.sticks) {
+      // Version control keeps no empty folder, and Makefiles write into it.
+      if (isBelow(each, copy)) fs::create_directories(each / modulesFolder);
+      copySettings(each, stick);
+    }
     if (found.sticks.empty())
       for (const fs::path& each : found.lists) copyLists(each, stick / configFolder);
     const auto name = [&](const fs::path& path) {
       return (fs::path(folder) / path.lexically_relative(copy)).lexically_normal().string();
     };
-    std::string said;  // of libraries: what is missing in the end is said where it is missing
+    std::string said;  // of libraries: told where one of them is missing in the end
     for (const fs::path& each : found.libraries) make(each, stick, work.path() / "sdk", "", said);
     const std::size_t firstObject = result_.objects.size();
-    for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), stick, work.path() / "sdk");
+    for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), copy, stick, work.path() / "sdk");
     for (const fs::path& each : found.byHand) byHand(each, name(each), stick, work.path() / "sdk");
     byWholeMakefile(copy, stick, work.path() / "sdk", firstObject);
+    tellOfLibraries(said, firstObject);
     if (!fs::exists(stick / configFolder / "OBJECT.CFG")) {
       std::string list;
       for (const std::string& module : modulesOn(stick)) list += "/MS/" + modulesFolder + "/" + module + "\n";
@@ -122,6 +157,21 @@ class StickBuilder {
     for (const std::string& module : modulesOn(stick))
       fs::copy_file(stick / modulesFolder / module, out_ / modulesFolder / upper(module),
                     fs::copy_options::overwrite_existing);
+  }
+
+  static bool isBelow(const fs::path& path, const fs::path& folder) {
+    return path.string().rfind(folder.string() + "/", 0) == 0;
+  }
+
+  /// What the compiler refused of a library is the reason why an object is not built.
+  void tellOfLibraries(const std::string& said, std::size_t firstObject) {
+    if (said.find("error: ") == std::string::npos) return;
+    for (std::size_t i = firstObject; i < result_.objects.size(); ++i) {
+      StickBuild::Object& object = result_.objects[i];
+      if (!object.modules.empty()) continue;
+      object.said = said + object.said;
+      return;
+    }
   }
 
   /// All but modules: configuration is added to, other files are replaced.
@@ -190,11 +240,12 @@ class StickBuilder {
       if (before.count(module) == 0 && next < missing.size()) missing[next++]->modules.push_back(module);
   }
 
-  void byMakefile(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
+  void byMakefile(const fs::path& folder, const std::string& name, const fs::path& copy, const fs::path& stick,
+                  const fs::path& sdk) {
     if (options_.progress) options_.progress(name);
     StickBuild::Object object{name, {}, {}};
     const auto before = modulesOn(stick);
-    const auto older = madeIn(folder);
+    const auto older = madeIn(copy);
     make(folder, stick, sdk, "install", object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
@@ -203,25 +254,31 @@ class StickBuilder {
       make(folder, stick, sdk, "", object.said);
     }
     // Whoever wrote the Makefile copied modules by hand, or to a memory stick that is not here.
-    if (object.modules.empty()) takeMade(folder, older, stick, object);
+    if (object.modules.empty()) takeMade(copy, older, stick, object);
     // A Makefile that builds the JPEG library from its sources first: this computer has one.
     if (object.modules.empty() && usesJpeg(folder)) return byHand(folder, name, stick, sdk);
     result_.objects.push_back(std::move(object));
   }
 
-  /// Modules in a folder, and when they were made.
+  /// Modules in a folder and those below, and when they were made.
   static std::map<fs::path, fs::file_time_type> madeIn(const fs::path& folder) {
     std::map<fs::path, fs::file_time_type> made;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (upper(entry.path().extension().string()) == ".BIN") made[entry.path()] = entry.last_write_time();
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file() && upper(entry.path().extension().string()) == ".BIN")
+        made[entry.path()] = entry.last_write_time();
     return made;
   }
 
+  /// What was made since `older`, wherever the Makefile puts it: on a stick, else where it was linked.
   static void takeMade(const fs::path& folder, const std::map<fs::path, fs::file_time_type>& older,
                        const fs::path& stick, StickBuild::Object& object) {
-    std::vector<fs::path> made;
+    std::vector<fs::path> made, installed;
     for (const auto& [path, time] : madeIn(folder))
-      if (const auto at = older.find(path); at == older.end() || at->second != time) made.push_back(path);
+      if (const auto at = older.find(path); at == older.end() || at->second != time) {
+        made.push_back(path);
+        if (upper(path.parent_path().generic_string()).ends_with(modulesFolder)) installed.push_back(path);
+      }
+    if (!installed.empty()) made = installed;
     if (!made.empty()) object.said.clear();
     for (const fs::path& each : made) {
       const std::string module = moduleName(each.stem().string(), listedModules(stick));
@@ -348,6 +405,29 @@ bool StickBuild::complete() const {
   return std::all_of(objects.begin(), objects.end(), [](const Object& object) { return !object.modules.empty(); });
 }
 
-StickBuild buildStick(const StickBuildOptions& options) { return StickBuilder(options).build(); }
+StickBuild buildStick(const StickBuildOptions& options) {
+  StickBuild built = StickBuilder(options).build();
+  const std::string refused = refusedLongs(built);
+  if (refused.empty()) return built;
+  // Sources that take a long for 32 bits and for 64 would read each other's structures and messages otherwise.
+  StickBuild wide;
+  {
+    const WideLongs everywhere;
+    wide = StickBuilder(options).build();
+  }
+  const bool isComplete = wide.complete() || !built.complete();
+  StickBuild& given = isComplete ? wide : built;
+  std::string& said = given.objects.front().said;
+  said =
+      refused +
+      (isComplete ? "a long has 64 bits here in all sources of this stick (32 on the robot): with 32 the compiler "
+                    "refuses the above\n"
+                  : "not built: with a long of 32 bits, as on the robot, the compiler refuses the above, and with 64 "
+                    "it refuses others\n") +
+      said;
+  if (!isComplete)
+    for (StickBuild::Object& object : given.objects) object.modules.clear();
+  return given;
+}
 
 }  // namespace btr::openr

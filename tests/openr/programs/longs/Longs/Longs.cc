@@ -2,6 +2,7 @@
 #include <OPENR/OSyslog.h>
 #include <OPENR/core_macro.h>
 #include <limits.h>
+#include <time.h>
 #include "Longs.h"
 OStatus Longs::DoInit(const OSystemEvent& event) {
   NEW_ALL_SUBJECT_AND_OBSERVER;
@@ -36,8 +37,9 @@ OStatus Longs::DoStart(const OSystemEvent& event) {
   char text[40];
   in_c(text, -1L);
   OSYSPRINT(("in C %s\n", text));
-  overloads(text);
-  OSYSPRINT(("overloads %s\n", text));
+  long now;
+  time(&now);
+  OSYSPRINT(("a time %d %d\n", now == (long)time(NULL), now == (long)time(0)));
   return oSUCCESS;
 }
 OStatus Longs::DoStop(const OSystemEvent& event) {

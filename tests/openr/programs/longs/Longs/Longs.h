@@ -26,6 +26,5 @@ class Longs : public OObject {
  private:
   DWORD seed;
 };
-void overloads(char* text);
 extern "C" void in_c(char* text, long number);
 #endif

@@ -1,4 +1,5 @@
-#include "Longs.h"
+#include "Widths.h"
+
 class Writer {
  public:
   Writer(char* text) : to(text) { *to = 0; }
@@ -14,8 +15,12 @@ class Writer {
  private:
   char* to;
 };
-void overloads(char* text) {
+void overloads(char* text, Percept& percept) {
   long number = 3;
   Writer writer(text);
   writer << 3 << number;
+  percept.time = 5;
+  percept.x = 100;
+  percept.y = -200;
+  percept.confidence = 0.5f;
 }

@@ -619,6 +619,8 @@ class TestGapPage : public QObject {
     QCOMPARE(factor("angle (deg)", "a.b.position_rad"), deg);
     QCOMPARE(factor("angle / °", "a.b.position_rad"), deg);
     QCOMPARE(factor("pos_deg", "a.b.position_rad"), deg);
+    QCOMPARE(factor("speed_deg_s", "a.b.velocity_rad_s"), deg);
+    QCOMPARE(factor("vel_rad_s", "a.b.velocity_rad_s"), 1.0);
     QCOMPARE(factor("speed [rpm]", "a.b.velocity_rad_s"), std::numbers::pi / 30);
     QCOMPARE(factor("torque [mNm]", "a.b.torque_nm"), 1e-3);
     QCOMPARE(factor("Time {us}", "time_s"), 1e-6);

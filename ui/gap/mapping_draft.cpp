@@ -42,21 +42,26 @@ std::string columnOf(const json& entry) {
   return column.is_number() ? numberedColumn(column.get<std::size_t>()) : column.get<std::string>();
 }
 
-/// A heading's name and what may be its unit: "t [ms]", "angle (°)", "pos / mm", "current_mA".
-std::pair<QString, QString> nameAndUnit(const QString& column) {
+/// A heading's name and what may be its unit: "t [ms]", "angle (°)", "pos / mm", "speed_deg_s", "current_mA".
+struct Heading {
+  QString name, unit;
+};
+std::vector<Heading> readingsOf(const QString& column) {
   static const QRegularExpression bracketed(R"(^(.*?)\s*[\[({]([^\[({]*)[\])}]\s*$)"), divided(R"(^(.*?)\s+/\s+(.*)$)"),
-      ending(R"(^(.*)_([^_]*)$)");
-  for (const QRegularExpression* form : {&bracketed, &divided, &ending})
+      perSecond(R"(^(.*)_([^_]+)_s$)"), ending(R"(^(.*)_([^_]*)$)");
+  std::vector<Heading> readings;
+  for (const QRegularExpression* form : {&bracketed, &divided, &perSecond, &ending})
     if (const auto found = form->match(column); found.hasMatch())
-      return {found.captured(1).trimmed(), found.captured(2).trimmed()};
-  return {column.trimmed(), {}};
+      readings.push_back({found.captured(1).trimmed(), found.captured(2).trimmed() + (form == &perSecond ? "/s" : "")});
+  return readings;
 }
 
 bool isTime(const QString& column) {
-  const QString name = nameAndUnit(column).first.toLower();
-  for (const char* known : {"time", "t", "timestamp", "seconds"})
-    if (name == known) return unitInHeading(column, "time_s") || name == column.toLower();
-  return false;
+  const auto isKnown = [](const QString& name) {
+    return QStringList{"time", "t", "timestamp", "seconds"}.contains(name.trimmed().toLower());
+  };
+  return isKnown(column) ||
+         (unitInHeading(column, "time_s") && std::ranges::any_of(readingsOf(column), isKnown, &Heading::name));
 }
 
 /// As unitsFor() writes it.
@@ -186,9 +191,9 @@ std::vector<std::pair<QString, double>> unitsFor(const QString& channel) {
 }
 
 std::optional<double> unitInHeading(const QString& column, const QString& channel) {
-  const QString unit = unitName(nameAndUnit(column).second);
-  for (const auto& [name, factor] : unitsFor(channel))
-    if (name.toLower() == unit) return factor;
+  for (const Heading& reading : readingsOf(column))
+    for (const auto& [name, factor] : unitsFor(channel))
+      if (name.toLower() == unitName(reading.unit)) return factor;
   return {};
 }
 

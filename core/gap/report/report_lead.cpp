@@ -39,16 +39,10 @@ std::string findingHeadline(const GapReport& report) {
          (report.verdict == Verdict::partlyExplained ? ", and something else is left" : "");
 }
 
-std::string sizesOf(const GapReport::Effect& effect) {
-  std::string text;
-  for (const GapReport::Number& n : effect.parameters) text += (text.empty() ? "" : "; ") + inWords(n);
-  return text;
-}
-
 std::string findingText(const GapReport::Effect& effect) {
   std::string text = capital(placed(effect));
   if (!effect.law.says.empty()) text += ": " + effect.law.says;
-  if (const std::string sizes = sizesOf(effect); !sizes.empty()) text += "; " + sizes;
+  if (const std::string sizes = numbersInWords(effect); !sizes.empty()) text += "; " + sizes;
   text += ".";
   std::vector<std::string> rivals;
   for (const GapReport::Rival& rival : effect.rivals) rivals.push_back(inWords(rival));

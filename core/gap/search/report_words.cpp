@@ -69,6 +69,12 @@ std::string inWords(const GapReport::Number& number) {
          (hasWidth ? " " + brief(number.ci95) : "") + (number.atBound ? ", at its bound" : "");
 }
 
+std::string numbersInWords(const GapReport::Effect& effect) {
+  std::string numbers;
+  for (const GapReport::Number& n : effect.parameters) numbers += (numbers.empty() ? "" : "; ") + inWords(n);
+  return numbers;
+}
+
 std::string inWordsWithRivals(const GapReport::Number& number) {
   return inWords(number) + (number.amongRivals.known() ? ", among rivals " + brief(number.amongRivals) : "");
 }

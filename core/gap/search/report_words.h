@@ -28,7 +28,9 @@ bool isWiderAmongRivals(const GapReport::Number& number);
 std::string brief(const GapReport::Interval& interval);
 /// "width_rad = 0.051 rad [0.047, 0.055]", without an interval where there is none; "width_rad not identifiable".
 std::string inWords(const GapReport::Number& number);
-/// The same, and ", among rivals [0.02, 0.055]".
+/// Those of an effect, one after another; "" where it has none.
+std::string numbersInWords(const GapReport::Effect& effect);
+/// The same of one, and ", among rivals [0.02, 0.055]".
 std::string inWordsWithRivals(const GapReport::Number& number);
 /// What the verdict means, a few words.
 std::string headline(GapReport::Verdict verdict);

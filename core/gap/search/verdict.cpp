@@ -38,8 +38,7 @@ double motionOf(const FitProblem& problem) {
 }
 
 std::string numbersText(const GapReport::Effect& effect) {
-  std::string numbers;
-  for (const GapReport::Number& p : effect.parameters) numbers += (numbers.empty() ? "" : "; ") + inWords(p);
+  const std::string numbers = numbersInWords(effect);
   return numbers.empty() ? "" : " (" + numbers + ")";
 }
 

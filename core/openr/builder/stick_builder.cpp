@@ -36,6 +36,10 @@ std::set<std::string> modulesOn(const fs::path& stick) {
   return modules;
 }
 
+bool isBelow(const fs::path& path, const fs::path& folder) {
+  return path.string().rfind(folder.string() + "/", 0) == 0;
+}
+
 bool isSubsequence(const std::string& part, const std::string& whole) {
   std::size_t at = 0;
   for (const char c : whole)
@@ -119,7 +123,7 @@ class StickBuilder {
  private:
   void buildFolder(const std::string& folder) {
     if (!fs::is_directory(folder)) throw InputError(folder + " is no folder; a folder with OPEN-R sources is needed");
-    if (fs::weakly_canonical(out_).string().rfind(fs::canonical(folder).string() + "/", 0) == 0 &&
+    if (isBelow(fs::weakly_canonical(out_), fs::canonical(folder)) &&
         fs::weakly_canonical(out_) != fs::canonical(folder) / "MS")
       throw InputError(options_.out + " lies in " + folder + "; a folder outside of the sources is needed");
     const ScratchFolder work("btr-openr");
@@ -157,10 +161,6 @@ class StickBuilder {
     for (const std::string& module : modulesOn(stick))
       fs::copy_file(stick / modulesFolder / module, out_ / modulesFolder / upper(module),
                     fs::copy_options::overwrite_existing);
-  }
-
-  static bool isBelow(const fs::path& path, const fs::path& folder) {
-    return path.string().rfind(folder.string() + "/", 0) == 0;
   }
 
   /// What the compiler refused of a library is the reason why an object is not built.

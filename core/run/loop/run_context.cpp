@@ -98,12 +98,6 @@ double RunContext::realitySetting(const std::string& name) const {
 
 std::uint64_t RunContext::trialSeed() const { return trialSeedOf(record); }
 
-int RunContext::measuredAfter(int stage) const {
-  const long long wanted = static_cast<long long>(stageSetting("first_generations")) +
-                           static_cast<long long>(stage - 1) * stageSetting("next_generations");
-  return static_cast<int>(std::min<long long>(wanted, stageSetting("total_generations")));
-}
-
 SimulatorRecord RunContext::simulator() const { return database.simulators(record.id).back(); }
 
 }  // namespace btr

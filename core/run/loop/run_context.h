@@ -44,8 +44,7 @@ class RunContext {
   double recordingSetting(const std::string& name) const;   ///< of recordingParameters()
   double realitySetting(const std::string& name) const;     ///< of realityLearningParameters()
   std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
-  /// L1 generation after which stage k = 1, 2, … measures, at most the total.
-  int measuredAfter(int stage) const;
+  int measuredAfter(int stage) const { return planned.measuredAfter(stage); }
   /// What is simulated until the run is finished, at the pace of this session's trials, into progress.secondsLeft;
   /// negative while there were none. See PlannedWork::trialsLeft.
   void estimateTimeLeft(int learned, int stage, int adapted);

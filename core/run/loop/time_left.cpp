@@ -4,6 +4,11 @@
 
 namespace btr {
 
+int PlannedWork::measuredAfter(int stage) const {
+  const long long wanted = firstGenerations + static_cast<long long>(stage - 1) * nextGenerations;
+  return static_cast<int>(std::min<long long>(wanted, totalGenerations));
+}
+
 int PlannedWork::stages() const {
   const int after = std::max(0, totalGenerations - firstGenerations);
   return 1 + (after + nextGenerations - 1) / nextGenerations;

@@ -10,6 +10,8 @@ struct PlannedWork {
   int adaptersGenerations = 0;                                          ///< of L3 at each stage
   int shownIndividuals = 0;  ///< of each stage, by which L3 judges a candidate from then on
 
+  /// L1 generation after which stage k = 1, 2, … measures, at most the total.
+  int measuredAfter(int stage) const;
   /// Stages of measuring and L3 until the run is finished.
   int stages() const;
   /// A generation of L3 after stage 1, 2, …: each candidate is tried on all that was measured until then.

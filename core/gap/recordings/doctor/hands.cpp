@@ -220,6 +220,15 @@ bool isPassive(const Scene& scene, const Binding& binding) {
   });
 }
 
+/// The first samples' middle one by value: where something rests at first.
+constexpr std::size_t restingSamples = 5;
+double restOf(const std::vector<Sample>& samples) {
+  std::vector<double> first;
+  for (std::size_t i = 0; i < restingSamples; ++i) first.push_back(samples[i].value);
+  std::ranges::nth_element(first, first.begin() + restingSamples / 2);
+  return first[restingSamples / 2];
+}
+
 /// How something that rests at first sets out: when it has gone a little way, a quarter of it, and four times as far.
 struct SetOut {
   double quarter_s = 0, little_s = 0, fourTimes_s = 0;
@@ -234,16 +243,12 @@ struct SetOut {
 };
 std::optional<SetOut> setOutOf(const std::vector<Sample>& samples, double noise) {
   constexpr double little = 0.04;  // of the whole motion; hands are not quite still
-  constexpr std::size_t first = 5;
-  if (samples.size() < 4 * first) return std::nullopt;
+  if (samples.size() < 4 * restingSamples) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(samples, {}, &Sample::value);
   const double way = std::max(4 * noise, little * (high.value - low.value));
-  std::vector<double> rest;
-  for (std::size_t i = 0; i < first; ++i) rest.push_back(samples[i].value);
-  std::ranges::nth_element(rest, rest.begin() + first / 2);
+  const double rest = restOf(samples);
   const auto beyond = [&](double distance) {
-    return std::ranges::find_if(samples,
-                                [&](const Sample& s) { return std::abs(s.value - rest[first / 2]) > distance; });
+    return std::ranges::find_if(samples, [&](const Sample& s) { return std::abs(s.value - rest) > distance; });
   };
   const auto quarter = beyond(way / 4), near = beyond(way), far = beyond(4 * way);
   if (far == samples.end()) return std::nullopt;
@@ -294,13 +299,11 @@ void leaveOutHeldBall(Recording& trial, const Scene& scene, const Binding& bindi
   for (const std::size_t column : places) {
     const std::vector<Sample> samples = samplesOf(trial, column);
     const double noise = std::max(floors * channelFloor(trial, column).level, 1e-4);
-    if (samples.size() < 5) return;
+    if (samples.size() < restingSamples) return;
     hidden_s = std::max(hidden_s, std::sqrt(2 * noise / gravity));
-    std::vector<double> first;
-    for (std::size_t i = 0; i < 5; ++i) first.push_back(samples[i].value);
-    std::ranges::nth_element(first, first.begin() + 2);
+    const double rest = restOf(samples);
     for (const Sample& sample : samples)
-      if (std::abs(sample.value - first[2]) > noise) {
+      if (std::abs(sample.value - rest) > noise) {
         until = std::min(until, sample.time_s);
         break;
       }

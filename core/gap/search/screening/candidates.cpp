@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
@@ -227,9 +228,8 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
   std::erase_if(candidates, [&](EffectCandidate& candidate) {
     const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
-    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum) ||
-        !std::ranges::equal(shown, candidate.declared, {}, &Parameter::maximum, &Parameter::maximum) ||
-        !std::ranges::equal(shown, candidate.declared, {}, &Parameter::byDefault, &Parameter::byDefault)) {
+    const auto numbers = [](const Parameter& p) { return std::tuple(p.minimum, p.maximum, p.byDefault); };
+    if (!std::ranges::equal(shown, candidate.declared, {}, numbers, numbers)) {
       candidate.declared = shown;
       candidate.variants = variantsOf(shown, thresholds);
     }
